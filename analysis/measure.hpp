@@ -1,0 +1,78 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "shoal/core/registry.hpp"
+#include "shoal/scenarios/trial_record.hpp"
+#include "shoal/scenarios/world.hpp"
+
+namespace shoal::analysis {
+
+/// What the measures of one trial say. Names carry their units; a measure without a value (never
+/// reached, not defined for this trial) is null.
+struct Results {
+  std::vector<std::pair<std::string, std::optional<double>>> values;
+  std::vector<scenarios::Series> series;
+
+  void add(std::string name, std::optional<double> value) {
+    values.emplace_back(std::move(name), value);
+  }
+  /// Throws std::out_of_range if no measure has that name.
+  std::optional<double> at(std::string_view name) const;
+};
+
+/// Measures something of a trial. One file each; enrolled ones are part of every trial.
+class Measure : public scenarios::Observer {
+ public:
+  static constexpr const char* family = "measure";
+  static constexpr const char* family_meaning = "says how well a trial went";
+
+  /// Called once before the trial runs. Throws InputError if the scenario asks too much.
+  virtual void begin(const scenarios::World& world) { (void)world; }
+
+  /// Seconds between two looks, 0 for none. Measures look every 5 s, as the author's log did,
+  /// unless they say otherwise.
+  double every_s() const override { return every_s_; }
+  void observe(const scenarios::World& world) override { (void)world; }
+
+  /// Called once when the trial has ended.
+  virtual void finish(const scenarios::World& world, Results& results) const = 0;
+
+ protected:
+  /// The multiple of the tick nearest to 5 s.
+  static double log_interval_s(const scenarios::World& world);
+
+  double every_s_ = 0.0;
+};
+
+/// Mean, least and greatest of a number over the vehicles that are left.
+struct Spread {
+  double mean = 0.0, least = 0.0, greatest = 0.0;
+};
+template <class Value>
+std::optional<Spread> over_survivors(const scenarios::World& world, Value value) {
+  Spread spread;
+  int count = 0;
+  for (std::size_t i = 0; i < world.size(); ++i) {
+    if (world.lost(i)) continue;
+    const double x = value(i);
+    spread.mean += x;
+    spread.least = count == 0 || x < spread.least ? x : spread.least;
+    spread.greatest = count == 0 || x > spread.greatest ? x : spread.greatest;
+    ++count;
+  }
+  if (count == 0) return std::nullopt;
+  spread.mean /= count;
+  return spread;
+}
+
+/// Positions (m) of the vehicles that are left, and their slots.
+void survivors(const scenarios::World& world, std::vector<Eigen::Vector2d>& positions,
+               std::vector<int>& slots);
+
+Eigen::Vector2d mean_of(const std::vector<Eigen::Vector2d>& points);
+
+}  // namespace shoal::analysis

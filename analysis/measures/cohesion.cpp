@@ -1,0 +1,91 @@
+#include <algorithm>
+#include <limits>
+#include <numeric>
+
+#include "shoal/analysis/measure.hpp"
+#include "shoal/core/grid_index.hpp"
+
+namespace shoal::analysis {
+namespace {
+
+/// Does the swarm hold together, and how close do two vehicles come?
+///
+/// Fragments are the connected parts of the graph of vehicles within acoustic range of one another,
+/// at the end of the mission. The least separation is over all looks, 5 s apart, and has no value if
+/// no two vehicles ever were within acoustic range.
+class Cohesion final : public Measure {
+ public:
+  static void declare(Options<Cohesion>&) {}
+
+  void begin(const scenarios::World& world) override { every_s_ = log_interval_s(world); }
+
+  void observe(const scenarios::World& world) override {
+    survivors(world, positions_, slots_);
+    split(positions_, x_, y_);
+    // A pair closer than the least so far lies within one cell of that size.
+    grid_.build(x_, y_, std::clamp(least_m_, 1e-3, world.scenario().ping.range_m));
+    for (std::size_t i = 0; i < x_.size(); ++i) {
+      grid_.near(x_[i], y_[i], [&](std::size_t j) {
+        if (j > i) least_m_ = std::min(least_m_, std::hypot(x_[i] - x_[j], y_[i] - y_[j]));
+      });
+    }
+  }
+
+  void finish(const scenarios::World& world, Results& results) const override {
+    results.add("min_separation_m", std::isfinite(least_m_) ? std::optional(least_m_) : std::nullopt);
+    results.add("fragments", fragments(world));
+    results.add("lost_vehicles", static_cast<double>(world.lost_count()));
+  }
+
+ private:
+  static void split(const std::vector<Eigen::Vector2d>& points, std::vector<double>& x,
+                    std::vector<double>& y) {
+    x.clear();
+    y.clear();
+    for (const Eigen::Vector2d& p : points) {
+      x.push_back(p.x());
+      y.push_back(p.y());
+    }
+  }
+
+  static int fragments(const scenarios::World& world) {
+    std::vector<Eigen::Vector2d> positions;
+    std::vector<int> slots;
+    std::vector<double> x, y;
+    survivors(world, positions, slots);
+    split(positions, x, y);
+    GridIndex grid;
+    const double range = world.scenario().ping.range_m;
+    grid.build(x, y, range);
+
+    std::vector<std::size_t> root(x.size());
+    std::iota(root.begin(), root.end(), 0);
+    const auto find = [&](std::size_t i) {
+      while (root[i] != i) i = root[i] = root[root[i]];
+      return i;
+    };
+    auto parts = static_cast<int>(x.size());
+    for (std::size_t i = 0; i < x.size(); ++i) {
+      grid.near(x[i], y[i], [&](std::size_t j) {
+        if (j <= i || (positions[i] - positions[j]).norm() > range) return;
+        const std::size_t a = find(i), b = find(j);
+        if (a == b) return;
+        root[a] = b;
+        --parts;
+      });
+    }
+    return parts;
+  }
+
+  double least_m_ = std::numeric_limits<double>::infinity();
+  GridIndex grid_;
+  std::vector<Eigen::Vector2d> positions_;
+  std::vector<int> slots_;
+  std::vector<double> x_, y_;
+};
+
+const Enrol<Measure, Cohesion> enrolled{"cohesion",
+                                        "min_separation_m, fragments, lost_vehicles"};
+
+}  // namespace
+}  // namespace shoal::analysis

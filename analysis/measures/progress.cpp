@@ -1,0 +1,59 @@
+#include "shoal/analysis/measure.hpp"
+
+namespace shoal::analysis {
+namespace {
+
+/// How far the swarm came, and for how much energy (Rypkema 2015, sec. 5.4).
+///
+/// The path is the length of the centroid's track, sampled every 5 s as in the author's log. When a
+/// vehicle is lost, the centroid of the others goes on from where it is: the jump is no path.
+class Progress final : public Measure {
+ public:
+  static void declare(Options<Progress>&) {}
+
+  void begin(const scenarios::World& world) override { every_s_ = log_interval_s(world); }
+
+  void observe(const scenarios::World& world) override {
+    std::vector<int> slots = std::move(slots_);
+    std::vector<Eigen::Vector2d> positions = std::move(positions_);
+    const std::size_t before = slots.size();
+    survivors(world, positions, slots);
+    if (!positions.empty()) {
+      const Eigen::Vector2d centroid = mean_of(positions);
+      if (!started_) {
+        started_ = true;
+      } else if (slots.size() == before) {
+        path_m_ += (centroid - centroid_).norm();
+        displacement_ += centroid - centroid_;
+      }
+      centroid_ = centroid;
+    }
+    slots_ = std::move(slots);
+    positions_ = std::move(positions);
+  }
+
+  void finish(const scenarios::World& w, Results& results) const override {
+    const auto energy = over_survivors(w, [&](std::size_t i) {
+      return w.propulsion_wh(i) + w.hotel_wh(i) + w.comms_wh(i);
+    });
+    results.add("centroid_path_m", path_m_);
+    results.add("centroid_displacement_m", displacement_.norm());
+    results.add("efficiency_m_per_wh", energy && energy->mean > 0.0
+                                           ? std::optional(path_m_ / energy->mean)
+                                           : std::nullopt);
+  }
+
+ private:
+  bool started_ = false;
+  double path_m_ = 0.0;
+  Eigen::Vector2d centroid_ = Eigen::Vector2d::Zero();
+  Eigen::Vector2d displacement_ = Eigen::Vector2d::Zero();
+  std::vector<Eigen::Vector2d> positions_;
+  std::vector<int> slots_;
+};
+
+const Enrol<Measure, Progress> enrolled{
+    "progress", "centroid_path_m, centroid_displacement_m, efficiency_m_per_wh (path / energy)"};
+
+}  // namespace
+}  // namespace shoal::analysis

@@ -1,0 +1,76 @@
+#include <fmt/core.h>
+
+#include <CLI/CLI.hpp>
+#include <exception>
+
+#include "commands.hpp"
+#include "shoal/core/error.hpp"
+
+namespace {
+
+// Exit status: 0 done, 1 a run failed, 2 bad input or usage.
+int guarded(const std::function<void()>& command) {
+  try {
+    command();
+    if (std::fflush(stdout) != 0) throw shoal::SystemError("cannot write to the terminal");
+    return 0;
+  } catch (const shoal::InputError& error) {
+    fmt::print(stderr, "shoal: {}\n", error.what());
+    return 2;
+  } catch (const std::exception& error) {
+    fmt::print(stderr, "shoal: {}\n", error.what());
+    return 1;
+  }
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  CLI::App app{"shoal: optimisation research toolkit for formation planning of underwater vehicles"};
+  app.set_version_flag("--version", SHOAL_VERSION);
+  app.require_subcommand(1);
+  std::function<void()> command;
+
+  shoal::program::RunArguments run;
+  CLI::App* run_command = app.add_subcommand("run", "Run one trial of a scenario");
+  run_command->add_option("scenario", run.scenario, "a scenario file, or its name in the library")
+      ->required();
+  run_command
+      ->add_option("--set", run.sets, "KEY=VALUE: change one option; may be given several times")
+      ->expected(1)
+      ->take_all();
+  run_command->add_option("--seed", run.seed, "seed of all random numbers (trial.seed)");
+  run_command->add_option("--out", run.out, "folder for the results; default: out/SCENARIO");
+  run_command->add_option("--threads", run.threads, "threads for large swarms; the numbers do not depend on it")
+      ->check(CLI::Range(1, 1024));
+  run_command->callback([&] { command = [&] { shoal::program::run(run); }; });
+
+  std::string family;
+  CLI::App* list_command = app.add_subcommand("list", "List what there is");
+  list_command->add_option("family", family, "scenario, behaviour, plan, current, solver ...");
+  list_command->callback([&] { command = [&] { shoal::program::list(family); }; });
+
+  std::string name;
+  CLI::App* describe_command =
+      app.add_subcommand("describe", "Describe a member of a family, or an option");
+  describe_command->add_option("name", name, "a name (rigid_registration) or a key (ping.period_s)")
+      ->required();
+  describe_command->callback([&] { command = [&] { shoal::program::describe(name); }; });
+
+  std::vector<std::string> files;
+  CLI::App* check_command =
+      app.add_subcommand("check", "Check scenarios and current files, and say what was understood");
+  check_command->add_option("files", files, "scenario (.toml), plan or start (.csv), current (.nc)")
+      ->required();
+  check_command->callback([&] { command = [&] { shoal::program::check(files); }; });
+
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::Success& success) {
+    return app.exit(success);
+  } catch (const CLI::ParseError& error) {
+    fmt::print(stderr, "shoal: {}; see shoal --help\n", error.what());
+    return 2;
+  }
+  return guarded(command);
+}

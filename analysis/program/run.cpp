@@ -1,0 +1,48 @@
+#include <fmt/core.h>
+
+#include <filesystem>
+
+#include "commands.hpp"
+#include "shoal/analysis/trial.hpp"
+#include "shoal/core/text.hpp"
+#include "shoal/scenarios/toml_file.hpp"
+
+namespace shoal::program {
+namespace {
+
+std::string shown(const std::optional<double>& value) {
+  return value ? fmt::format("{:.6g}", *value) : "never";
+}
+
+void print_summary(const analysis::Trial& trial, const std::string& name) {
+  fmt::print("{}: {}, {} vehicles, {:g} s, seed {}\n", name, trial.scenario.behaviour.kind(),
+             trial.world->size(), trial.scenario.trial.duration_s, trial.scenario.trial.seed);
+  for (const auto& [metric, value] : trial.results.values) {
+    fmt::print("  {:<30} {:>12}\n", metric, shown(value));
+  }
+  fmt::print("simulated in {:.2f} s, {:.3g} vehicle-seconds per second\n", trial.wall_s,
+             trial.vehicle_seconds_per_wall_s());
+}
+
+}  // namespace
+
+void run(const RunArguments& arguments) {
+  const std::filesystem::path file = scenarios::find_scenario(arguments.scenario);
+  Setting root = scenarios::read_toml(file);
+  for (const std::string& set : arguments.sets) scenarios::apply_set(root, set);
+  if (arguments.seed) scenarios::apply_set(root, "trial.seed=" + std::to_string(*arguments.seed));
+
+  const scenarios::Scenario scenario = scenarios::read_scenario(root);
+  const std::string name = file.stem().string();
+  const std::filesystem::path out = arguments.out.empty() ? "out/" + name : arguments.out;
+  analysis::require_writable(out);
+
+  const analysis::Trial trial =
+      analysis::run_trial(scenario, {.threads = arguments.threads, .record = true});
+  analysis::write_trial(trial, name, out);
+  print_summary(trial, name);
+  fmt::print("written: {}/{{scenario.toml,{}summary.json}}\n", out.string(),
+             trial.record ? "run.nc," : "");
+}
+
+}  // namespace shoal::program

@@ -1,0 +1,42 @@
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <string>
+
+#include "shoal/analysis/measure.hpp"
+#include "shoal/scenarios/scenario.hpp"
+
+namespace shoal::analysis {
+
+/// A trial that was run: its measures, and the world as it was at the end.
+struct Trial {
+  scenarios::Scenario scenario;
+  Results results;
+  std::unique_ptr<scenarios::World> world;
+  std::unique_ptr<scenarios::TrialRecord> record;  ///< null if nothing was recorded
+  double wall_s = 0.0;                             ///< of the simulation, with its measures
+
+  double vehicle_seconds_per_wall_s() const;
+};
+
+struct TrialSettings {
+  int threads = 1;
+  bool record = true;  ///< at trial.record_every_s, if that is above 0
+};
+
+/// Runs a scenario. The measures are the same for any number of threads, with or without recording.
+/// Throws InputError if the scenario cannot be run.
+Trial run_trial(const scenarios::Scenario& scenario, const TrialSettings& settings = {});
+
+/// The content of summary.json.
+std::string summary_json(const Trial& trial, const std::string& name);
+
+/// Writes scenario.toml (resolved), run.nc (if recorded) and summary.json into a folder, which is
+/// made if need be. Each file appears when it is complete, the summary last. Throws SystemError.
+void write_trial(const Trial& trial, const std::string& name, const std::filesystem::path& folder);
+
+/// Throws SystemError unless files can be written in the folder (which is made if need be).
+void require_writable(const std::filesystem::path& folder);
+
+}  // namespace shoal::analysis

@@ -1,0 +1,34 @@
+# Headers are included as "shoal/core/angles.hpp", in the tree as when installed.
+set(SHOAL_INCLUDE ${PROJECT_BINARY_DIR}/include)
+file(MAKE_DIRECTORY ${SHOAL_INCLUDE}/shoal)
+foreach(layer core solvers formations scenarios analysis)
+  file(CREATE_LINK ${PROJECT_SOURCE_DIR}/${layer} ${SHOAL_INCLUDE}/shoal/${layer} SYMBOLIC)
+endforeach()
+
+add_library(shoal_warnings INTERFACE)
+target_compile_options(shoal_warnings INTERFACE -Wall -Wextra -Wpedantic -Wshadow -Wconversion
+                       -Wnon-virtual-dtor -Wno-missing-field-initializers
+                       $<$<BOOL:${SHOAL_WERROR}>:-Werror>
+                       # At -O3 these three of GCC 12 report code of Eigen and of libstdc++ itself
+                       # (GCC bug 105651 and its like); the sanitizers look for the real thing.
+                       $<$<CXX_COMPILER_ID:GNU>:-Wno-restrict -Wno-array-bounds
+                       -Wno-maybe-uninitialized>)
+
+# shoal_library(LAYER PUBLIC ... PRIVATE ...): every .cpp of the layer, as a shared library.
+#
+# Shared, because members enrol themselves at start-up: out of a static library the linker would
+# drop every file that nobody calls by name. It also keeps the solvers' libraries out of what a
+# user of shoal links.
+function(shoal_library layer)
+  file(GLOB_RECURSE sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/${layer}/*.cpp)
+  list(FILTER sources EXCLUDE REGEX "/(program|tools|python)/")
+  add_library(shoal_${layer} SHARED ${sources})
+  add_library(shoal::${layer} ALIAS shoal_${layer})
+  set_target_properties(shoal_${layer} PROPERTIES EXPORT_NAME ${layer} VERSION ${PROJECT_VERSION}
+                        SOVERSION ${PROJECT_VERSION_MAJOR})
+  target_include_directories(shoal_${layer} PUBLIC $<BUILD_INTERFACE:${SHOAL_INCLUDE}>
+                             $<INSTALL_INTERFACE:include>)
+  target_compile_features(shoal_${layer} PUBLIC cxx_std_20)
+  target_compile_options(shoal_${layer} PRIVATE -fno-semantic-interposition)
+  target_link_libraries(shoal_${layer} ${ARGN} PRIVATE $<BUILD_INTERFACE:shoal_warnings>)
+endfunction()

@@ -1,0 +1,191 @@
+#pragma once
+
+// The typed half of options.hpp.
+
+#include "shoal/core/options.hpp"
+#include "shoal/core/text.hpp"
+
+namespace shoal {
+
+namespace detail {
+
+/// `trial.seed is a string; it takes an integer`.
+[[noreturn]] void refuse_type(const Option& option, const Setting& value, const std::string& key);
+/// Also refuses values that are not finite.
+void require_range(const Option& option, double x, const Setting& value, const std::string& key);
+
+double as_number(const Option& option, const Setting& value, const std::string& key);
+std::int64_t as_integer(const Option& option, const Setting& value, const std::string& key);
+const std::string& as_text(const Option& option, const Setting& value, const std::string& key);
+FilePath as_file(const Option& option, const Setting& value, const std::string& key);
+Eigen::Vector2d as_point(const Option& option, const Setting& value, const std::string& key);
+const Setting::List& as_list(const Option& option, const Setting& value, const std::string& key);
+
+template <class Value>
+Setting plain(Value value) {
+  Setting setting;
+  setting.value = std::move(value);
+  return setting;
+}
+
+}  // namespace detail
+
+template <class T>
+template <class Value, class Read, class Write>
+void Options<T>::add(Option option, Value T::*member, Read read, Write write) {
+  // The closures hold a copy of what they need to complain; the option itself may move.
+  const Option described = option;
+  option.read = [described, member, read](void* object, const Setting& value,
+                                          const std::string& key) {
+    static_cast<T*>(object)->*member = read(described, value, key);
+  };
+  option.write = [member, write](const void* object) {
+    return detail::plain(write(static_cast<const T*>(object)->*member));
+  };
+  options_.push_back(std::move(option));
+}
+
+template <class T>
+void Options<T>::number(std::string name, double T::*member, std::string unit, Range range,
+                        std::string meaning) {
+  add({.name = name, .unit = unit, .meaning = meaning, .type = "a number", .range = range}, member,
+      detail::as_number, [](double x) { return x; });
+}
+
+template <class T>
+void Options<T>::integer(std::string name, std::int64_t T::*member, std::string unit, Range range,
+                         std::string meaning) {
+  add({.name = name, .unit = unit, .meaning = meaning, .type = "an integer", .range = range},
+      member, detail::as_integer, [](std::int64_t x) { return x; });
+}
+
+template <class T>
+void Options<T>::flag(std::string name, bool T::*member, std::string meaning) {
+  add(
+      {.name = name, .meaning = meaning, .type = "true or false"}, member,
+      [](const Option& option, const Setting& value, const std::string& key) {
+        const bool* flag = std::get_if<bool>(&value.value);
+        if (!flag) detail::refuse_type(option, value, key);
+        return *flag;
+      },
+      [](bool x) { return x; });
+}
+
+template <class T>
+void Options<T>::text(std::string name, std::string T::*member, std::string meaning) {
+  add({.name = name, .meaning = meaning, .type = "a string"}, member, detail::as_text,
+      [](const std::string& x) { return x; });
+}
+
+template <class T>
+void Options<T>::file(std::string name, FilePath T::*member, std::string meaning) {
+  add({.name = name, .meaning = meaning, .type = "a file name"}, member, detail::as_file,
+      [](const FilePath& x) { return x.path.string(); });
+}
+
+template <class T>
+void Options<T>::texts(std::string name, std::vector<std::string> T::*member, std::string meaning) {
+  add(
+      {.name = name, .meaning = meaning, .type = "a list of strings"}, member,
+      [](const Option& option, const Setting& value, const std::string& key) {
+        std::vector<std::string> texts;
+        for (const Setting& entry : detail::as_list(option, value, key)) {
+          texts.push_back(detail::as_text(option, entry, key));
+        }
+        return texts;
+      },
+      [](const std::vector<std::string>& texts) {
+        Setting::List list;
+        for (const std::string& text : texts) list.push_back(detail::plain(text));
+        return list;
+      });
+}
+
+template <class T>
+void Options<T>::points(std::string name, std::vector<Eigen::Vector2d> T::*member,
+                        std::string meaning, std::string unit) {
+  add(
+      {.name = name, .unit = unit, .meaning = meaning, .type = "a list of [x, y] pairs"}, member,
+      [](const Option& option, const Setting& value, const std::string& key) {
+        std::vector<Eigen::Vector2d> points;
+        for (const Setting& entry : detail::as_list(option, value, key)) {
+          points.push_back(detail::as_point(option, entry, key));
+        }
+        return points;
+      },
+      [](const std::vector<Eigen::Vector2d>& points) {
+        Setting::List list;
+        for (const Eigen::Vector2d& p : points) {
+          list.push_back(detail::plain(Setting::List{detail::plain(p.x()), detail::plain(p.y())}));
+        }
+        return list;
+      });
+}
+
+template <class T>
+template <class Enum>
+void Options<T>::word(std::string name, Enum T::*member,
+                      std::initializer_list<std::pair<std::string, Enum>> words,
+                      std::string meaning) {
+  const std::vector<std::pair<std::string, Enum>> known(words);
+  std::string type = "one of";
+  for (const auto& [word, value] : known) type += (type == "one of" ? " \"" : ", \"") + word + '"';
+  add(
+      {.name = name, .meaning = meaning, .type = type}, member,
+      [known](const Option& option, const Setting& value, const std::string& key) {
+        const std::string& given = detail::as_text(option, value, key);
+        std::vector<std::string> names;
+        for (const auto& [word, enumerator] : known) {
+          if (word == given) return enumerator;
+          names.push_back(word);
+        }
+        throw InputError(value.origin,
+                         key + " has no value \"" + given + '"' + suggestion(given, names));
+      },
+      [known](Enum x) {
+        for (const auto& [word, enumerator] : known) {
+          if (enumerator == x) return word;
+        }
+        return std::string("?");
+      });
+}
+
+template <class T>
+template <class Nested>
+void Options<T>::table(std::string name, Nested T::*member, std::string meaning) {
+  Option option{.name = name, .meaning = meaning, .type = "a table"};
+  option.table = &schema_of<Nested>();
+  option.read = [member](void* object, const Setting& value, const std::string& key) {
+    shoal::read(static_cast<T*>(object)->*member, value, key);
+  };
+  option.write = [member](const void* object) {
+    return write_options(schema_of<Nested>(), &(static_cast<const T*>(object)->*member));
+  };
+  options_.push_back(std::move(option));
+}
+
+template <class T>
+const Schema& schema_of() {
+  static const Schema schema = [] {
+    Options<T> options;
+    T::declare(options);
+    Schema made{options.take(), {}};
+    const T fresh{};
+    made.defaults = write_options(made, &fresh);
+    return made;
+  }();
+  return schema;
+}
+
+template <class T>
+void read(T& object, const Setting& table, const std::string& path) {
+  read_options(schema_of<T>(), &object, table, path);
+  if constexpr (requires { object.origin = table.origin; }) object.origin = table.origin;
+  if constexpr (requires { object.complaint(); }) {
+    if (const std::optional<std::string> wrong = object.complaint()) {
+      throw InputError(table.origin, (path.empty() ? "" : path + ": ") + *wrong);
+    }
+  }
+}
+
+}  // namespace shoal

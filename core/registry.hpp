@@ -1,0 +1,162 @@
+#pragma once
+
+#include <algorithm>
+#include <concepts>
+#include <functional>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "shoal/core/options.hpp"
+
+namespace shoal {
+
+/// What is known of one member of a family without its type.
+struct MemberInfo {
+  std::string name;
+  std::string summary;  ///< one line: what it does, and its source
+  const Schema& (*schema)();
+  /// Reads the options of this member and throws InputError if they are wrong.
+  void (*check)(const Setting& table, const std::string& path);
+  /// The options as given, completed by the defaults.
+  Setting (*complete)(const Setting& table, const std::string& path);
+};
+
+/// A family of interchangeable things (behaviours, currents ...), with the types erased.
+class RegistryBase {
+ public:
+  RegistryBase(std::string family, std::string meaning);
+  RegistryBase(const RegistryBase&) = delete;
+  RegistryBase& operator=(const RegistryBase&) = delete;
+
+  const std::string& family() const { return family_; }
+  const std::string& meaning() const { return meaning_; }
+
+  /// Sorted by name; enrolment order depends on the linker and must not show.
+  const std::vector<MemberInfo>& members() const { return members_; }
+  std::vector<std::string> names() const;
+
+  /// Throws InputError, naming the known members, if there is none of that name.
+  std::size_t index_of(std::string_view name, const Origin& origin, const std::string& key) const;
+
+ protected:
+  std::size_t insert(MemberInfo info);
+
+ private:
+  std::string family_;
+  std::string meaning_;
+  std::vector<MemberInfo> members_;
+};
+
+/// All families that something is enrolled in, sorted by name.
+std::vector<const RegistryBase*> families();
+
+/// name -> factory. `Family::family` names it, `Family::family_meaning` says what it is.
+template <class Family>
+class Registry : public RegistryBase {
+ public:
+  using Factory = std::function<std::unique_ptr<Family>(const Setting&, const std::string& path)>;
+
+  static Registry& instance() {
+    static Registry registry;
+    return registry;
+  }
+
+  void enrol(MemberInfo info, Factory factory) {
+    const auto place = static_cast<std::ptrdiff_t>(insert(std::move(info)));
+    factories_.insert(factories_.begin() + place, std::move(factory));
+  }
+
+  std::unique_ptr<Family> make(std::string_view name, const Setting& table,
+                               const std::string& path) const {
+    return factories_[index_of(name, table.origin, path)](table, path);
+  }
+
+ private:
+  Registry() : RegistryBase(Family::family, Family::family_meaning) {}
+  std::vector<Factory> factories_;
+};
+
+/// Enrols a member at start-up:
+///
+///     const Enrol<Behaviour, RigidRegistration> enrolled{"rigid_registration", "..."};
+///
+/// `Declared` is a declared struct. It either is the member, or a maker turns it into one.
+template <class Family, class Declared>
+struct Enrol {
+  Enrol(std::string name, std::string summary) requires std::derived_from<Declared, Family>
+      : Enrol(std::move(name), std::move(summary),
+              [](const Declared& member) { return std::make_unique<Declared>(member); }) {}
+
+  template <class Maker>
+  Enrol(std::string name, std::string summary, Maker maker) {
+    MemberInfo info{std::move(name), std::move(summary), &schema_of<Declared>,
+                    [](const Setting& table, const std::string& path) {
+                      Declared declared;
+                      read(declared, table, path);
+                    },
+                    [](const Setting& table, const std::string& path) {
+                      Declared declared;
+                      read(declared, table, path);
+                      return write_options(schema_of<Declared>(), &declared);
+                    }};
+    Registry<Family>::instance().enrol(
+        std::move(info),
+        [maker](const Setting& table, const std::string& path) -> std::unique_ptr<Family> {
+          Declared declared;
+          read(declared, table, path);
+          return maker(declared);
+        });
+  }
+};
+
+/// What was chosen from a family: the kind, and the options given for this and for other kinds
+/// (so that `--set behaviour.kind=...` finds its options in the same file).
+struct ChoiceSetting {
+  std::string kind;
+  Setting tables;    ///< kind -> table of its options
+  std::string path;  ///< dotted name of the choice, for messages
+  Origin origin;
+
+  void read(const RegistryBase& registry, const Setting& value, const std::string& key);
+  Setting write(const RegistryBase& registry) const;
+  const Setting& options() const;  ///< the table of the chosen kind
+};
+
+template <class Family>
+class Choice {
+ public:
+  Choice(std::string kind) { setting_.kind = std::move(kind); }  // NOLINT: `= "thesis"` reads well
+
+  const std::string& kind() const { return setting_.kind; }
+  ChoiceSetting& setting() { return setting_; }
+  const ChoiceSetting& setting() const { return setting_; }
+
+  /// Throws InputError if no kind of that name is known.
+  std::unique_ptr<Family> make() const {
+    return Registry<Family>::instance().make(
+        kind(), setting_.options(),
+        (setting_.path.empty() ? std::string(Family::family) : setting_.path) + "." + kind());
+  }
+
+ private:
+  ChoiceSetting setting_;
+};
+
+template <class T>
+template <class Family>
+void Options<T>::choice(std::string name, Choice<Family> T::*member, std::string meaning) {
+  Option option{.name = name, .meaning = meaning, .type = "a table with a kind"};
+  option.choice = &Registry<Family>::instance();
+  option.read = [member](void* object, const Setting& value, const std::string& key) {
+    (static_cast<T*>(object)->*member).setting().read(Registry<Family>::instance(), value, key);
+  };
+  option.write = [member](const void* object) {
+    return (static_cast<const T*>(object)->*member).setting().write(Registry<Family>::instance());
+  };
+  options_.push_back(std::move(option));
+}
+
+}  // namespace shoal

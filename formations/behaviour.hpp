@@ -1,0 +1,53 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <string_view>
+
+#include "shoal/core/registry.hpp"
+#include "shoal/formations/neighbourhood.hpp"
+#include "shoal/formations/plan.hpp"
+
+namespace shoal::formations {
+
+/// Why a target is what it is.
+enum class Reason : std::uint8_t {
+  placed,            ///< the behaviour's problem was solved
+  no_neighbour,      ///< nobody usable was heard: hold the own position
+  one_neighbour,     ///< two are needed: hold
+  degenerate,        ///< the neighbours fix no direction (coincident): hold
+  solver_failed,     ///< the solver gave no usable point: hold
+};
+inline constexpr int reason_count = 5;
+std::string_view name_of(Reason reason);
+
+/// Where a vehicle should go, in its own frame. Holding means the own position: free drift.
+struct Target {
+  Eigen::Vector2d position = Eigen::Vector2d::Zero();  ///< metres, own frame
+  Reason reason = Reason::placed;
+  double cost = 0.0;  ///< of the solved problem, in its own unit
+
+  bool held() const { return reason != Reason::placed; }
+  static Target at(const Eigen::Vector2d& position, double cost) {
+    return {position, Reason::placed, cost};
+  }
+  static Target hold(Reason why) { return {Eigen::Vector2d::Zero(), why, 0.0}; }
+};
+
+/// Turns what a vehicle heard into a problem, has it solved, and returns the target.
+///
+/// Stateless and thread-safe: one behaviour serves a whole swarm. Reads no files, draws no random
+/// numbers, and does not know whether it is simulated.
+class Behaviour {
+ public:
+  static constexpr const char* family = "behaviour";
+  static constexpr const char* family_meaning = "turns what was heard into a target";
+
+  virtual ~Behaviour() = default;
+  virtual Target step(const Neighbourhood& seen, const Plan& plan) const = 0;
+
+  /// True if anonymous neighbours are of no use to it.
+  virtual bool needs_ids() const = 0;
+};
+
+}  // namespace shoal::formations

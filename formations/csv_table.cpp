@@ -1,0 +1,141 @@
+#include "shoal/formations/csv_table.hpp"
+
+#include <algorithm>
+#include <fstream>
+#include <iterator>
+
+#include "shoal/core/text.hpp"
+
+namespace shoal::formations {
+namespace {
+
+std::string content_of(const FilePath& file) {
+  const std::string name = file.path.string();
+  if (std::filesystem::is_directory(file.path)) {
+    throw InputError(file.origin, name + " is a directory; name a CSV file");
+  }
+  std::ifstream in(file.path, std::ios::binary);
+  if (!in) throw InputError(file.origin, "cannot open " + name + "; is there such a CSV file?");
+  std::string content{std::istreambuf_iterator<char>(in), {}};
+  if (content.starts_with("\xEF\xBB\xBF")) content.erase(0, 3);
+  return content;
+}
+
+/// The fields of one line, without surrounding blanks; quotes as in RFC 4180.
+std::vector<std::string> fields_of(std::string_view line, const Origin& origin) {
+  std::vector<std::string> fields;
+  for (;;) {
+    line.remove_prefix(std::min(line.find_first_not_of(" \t"), line.size()));
+    std::string field;
+    const bool quoted = line.starts_with('"');
+    while (quoted) {
+      const auto end = line.find('"', 1);
+      if (end == std::string_view::npos) {
+        throw InputError(origin, "a quoted field does not end; close it with \"");
+      }
+      field += line.substr(1, end - 1);
+      line.remove_prefix(end);
+      if (!line.substr(1).starts_with('"')) break;
+      field += '"';
+      line.remove_prefix(1);
+    }
+    if (quoted) line.remove_prefix(1);
+    const auto comma = line.find(',');
+    const std::string_view rest = trimmed(line.substr(0, comma));
+    if (quoted && !rest.empty()) {
+      throw InputError(origin, "\"" + std::string(rest) + "\" follows a quoted field; put a comma");
+    }
+    fields.push_back(quoted ? std::move(field) : std::string(rest));
+    if (comma == std::string_view::npos) return fields;
+    line.remove_prefix(comma + 1);
+  }
+}
+
+}  // namespace
+
+CsvTable::CsvTable(const FilePath& file, const CsvColumns& columns) : file_(file.path.string()) {
+  const std::string content = content_of(file);
+  int line_number = 0;
+  for (const std::string_view raw : split(content, '\n')) {
+    ++line_number;
+    const std::string_view line = trimmed(raw);
+    if (line.empty() || line.starts_with('#')) continue;
+    const Origin here{file_, line_number};
+    std::vector<std::string> fields = fields_of(line, here);
+    if (header_.empty()) {
+      take_header(fields, line_number, columns);
+      continue;
+    }
+    if (fields.size() != header_.size()) {
+      throw InputError(here, "this row has " + std::to_string(fields.size()) + " field" +
+                                 (fields.size() == 1 ? "" : "s") + "; it needs " +
+                                 std::to_string(header_.size()) + ": " + listed(header_));
+    }
+    lines_.push_back(line_number);
+    std::ranges::move(fields, std::back_inserter(fields_));
+  }
+  if (header_.empty()) {
+    throw InputError({file_, 0}, "the file is empty; its first line names the columns " +
+                                     listed(columns.required));
+  }
+  if (lines_.empty()) throw InputError({file_, 0}, "the file has no rows below its header");
+}
+
+void CsvTable::take_header(const std::vector<std::string>& fields, int line,
+                           const CsvColumns& columns) {
+  const Origin here{file_, line};
+  std::vector<std::string> known = columns.required;
+  known.insert(known.end(), columns.optional.begin(), columns.optional.end());
+  for (const std::string& field : fields) {
+    if (std::ranges::find(known, field) == known.end()) {
+      throw InputError(
+          here, "there is no column \"" + field + "\" in such a file" + suggestion(field, known));
+    }
+    if (has(field)) throw InputError(here, "the column \"" + field + "\" stands here twice");
+    header_.push_back(field);
+  }
+  for (const std::string& column : columns.required) {
+    if (!has(column)) {
+      throw InputError(here, "the column \"" + column + "\" is missing; the first line names " +
+                                 listed(columns.required));
+    }
+  }
+}
+
+bool CsvTable::has(const std::string& column) const {
+  return std::ranges::find(header_, column) != header_.end();
+}
+
+std::size_t CsvTable::column_index(const std::string& column) const {
+  const auto found = std::ranges::find(header_, column);
+  if (found == header_.end()) {
+    throw InputError({file_, 0}, "the file has no column \"" + column + '"');
+  }
+  return static_cast<std::size_t>(found - header_.begin());
+}
+
+const std::string& CsvTable::text(std::size_t row, const std::string& column) const {
+  const std::string& field = fields_[row * header_.size() + column_index(column)];
+  if (field.empty()) throw InputError(origin(row), column + " is empty");
+  return field;
+}
+
+double CsvTable::number(std::size_t row, const std::string& column) const {
+  const std::string& field = text(row, column);
+  if (const auto number = parsed_number(field)) return *number;
+  throw InputError(origin(row), column + " is \"" + field + "\"; it takes a finite number");
+}
+
+std::vector<std::string> CsvTable::texts(const std::string& column) const {
+  std::vector<std::string> all;
+  for (std::size_t row = 0; row < rows(); ++row) all.push_back(text(row, column));
+  return all;
+}
+
+std::vector<double> CsvTable::numbers(const std::string& column) const {
+  std::vector<double> all;
+  for (std::size_t row = 0; row < rows(); ++row) all.push_back(number(row, column));
+  return all;
+}
+
+}  // namespace shoal::formations

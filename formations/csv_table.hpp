@@ -1,0 +1,54 @@
+#pragma once
+
+#include <span>
+#include <string>
+#include <vector>
+
+#include "shoal/core/options.hpp"
+
+namespace shoal::formations {
+
+/// What a CSV file must and may have; other columns are errors.
+struct CsvColumns {
+  std::vector<std::string> required;
+  std::vector<std::string> optional;
+};
+
+/// A small CSV file, its columns known by name and its rows by their line.
+///
+/// The first line names the columns, in any order. Blank lines and lines that start with # are
+/// passed over; CRLF, a UTF-8 byte order mark and "quoted" fields are understood. Every complaint
+/// is an InputError that begins with `file:line: `.
+class CsvTable {
+ public:
+  /// Throws InputError if the file cannot be opened (pointing at where it was named), has no
+  /// header or no rows, lacks a required column, has an unknown or repeated one, or has a row with
+  /// another number of fields.
+  CsvTable(const FilePath& file, const CsvColumns& columns);
+
+  std::size_t rows() const { return lines_.size(); }
+  bool has(const std::string& column) const;
+
+  /// The field as written. Throws InputError if it is empty.
+  const std::string& text(std::size_t row, const std::string& column) const;
+
+  /// Throws InputError unless the field is a finite number.
+  double number(std::size_t row, const std::string& column) const;
+
+  /// The whole column, as text() and number() give it.
+  std::vector<std::string> texts(const std::string& column) const;
+  std::vector<double> numbers(const std::string& column) const;
+
+  Origin origin(std::size_t row) const { return {file_, lines_[row]}; }
+
+ private:
+  void take_header(const std::vector<std::string>& fields, int line, const CsvColumns& columns);
+  std::size_t column_index(const std::string& column) const;
+
+  std::string file_;
+  std::vector<std::string> header_;
+  std::vector<int> lines_;           // of each row
+  std::vector<std::string> fields_;  // row by row
+};
+
+}  // namespace shoal::formations

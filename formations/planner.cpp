@@ -1,0 +1,37 @@
+#include "shoal/formations/planner.hpp"
+
+#include <cmath>
+
+namespace shoal::formations {
+
+Planner::Planner(std::shared_ptr<const Plan> plan, std::shared_ptr<const Behaviour> behaviour,
+                 std::string_view own_name, const PingFilterOptions& filter)
+    : plan_(std::move(plan)),
+      behaviour_(std::move(behaviour)),
+      own_slot_(plan_->index_of(own_name)),
+      filter_(filter) {}
+
+void Planner::receive(const Ping& ping, const Eigen::Vector2d& own_position) {
+  if (!std::isfinite(ping.time_s) || !std::isfinite(ping.range_m) || ping.range_m < 0.0 ||
+      !std::isfinite(ping.bearing_rad) || !std::isfinite(ping.elevation_rad) ||
+      !own_position.allFinite()) {
+    throw InputError("a ping needs finite numbers and a range of at least 0 m; drop this one");
+  }
+  if (ping.slot != anonymous && (ping.slot < 0 || ping.slot >= plan_->size())) {
+    throw InputError("a ping says slot " + std::to_string(ping.slot) + ", but the plan has slots 0 to " +
+                     std::to_string(plan_->size() - 1));
+  }
+  if (ping.slot == own_slot_) {
+    throw InputError("a ping carries the own id " + plan_->name(own_slot_) +
+                     "; drop echoes of the own pings");
+  }
+  filter_.receive(ping, own_position);
+}
+
+const Target& Planner::plan(double time_s, const Eigen::Vector2d& own_position) {
+  target_ = behaviour_->step({filter_.neighbours(time_s, own_position), own_slot_}, *plan_);
+  target_position_ = own_position + target_.position;
+  return target_;
+}
+
+}  // namespace shoal::formations

@@ -1,0 +1,52 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <memory>
+#include <optional>
+#include <string_view>
+
+#include "shoal/formations/behaviour.hpp"
+#include "shoal/formations/ping_filter.hpp"
+#include "shoal/formations/plan.hpp"
+
+namespace shoal::formations {
+
+/// The formation planner of one vehicle: pings in, targets out.
+///
+/// This is what a vehicle, or somebody else's simulator, links. It needs no simulation of ours, no
+/// files, threads or global state, and does not allocate once it has met its neighbours.
+///
+/// Own positions are metres east and north in any fixed frame (dead reckoning will do); only their
+/// differences matter. Plan and behaviour may be shared by many planners and threads.
+class Planner {
+ public:
+  /// Throws InputError if the plan has no slot of that name.
+  Planner(std::shared_ptr<const Plan> plan, std::shared_ptr<const Behaviour> behaviour,
+          std::string_view own_name, const PingFilterOptions& filter = {});
+
+  /// A ping was heard while the vehicle was at `own_position`. Pings must come in time order.
+  /// Throws InputError if a number is not finite, the range is negative, or the sender's slot is
+  /// the own one or unknown to the plan.
+  void receive(const Ping& ping, const Eigen::Vector2d& own_position);
+
+  /// Plans anew from what was heard so far and returns the target relative to the vehicle.
+  const Target& plan(double time_s, const Eigen::Vector2d& own_position);
+
+  /// The last target, relative to where the vehicle is now. Before the first plan(): zero.
+  Eigen::Vector2d target_from(const Eigen::Vector2d& own_position) const {
+    return target_.held() ? Eigen::Vector2d::Zero().eval() : (target_position_ - own_position);
+  }
+  const Target& last_target() const { return target_; }
+
+  int own_slot() const { return own_slot_; }
+
+ private:
+  std::shared_ptr<const Plan> plan_;
+  std::shared_ptr<const Behaviour> behaviour_;
+  int own_slot_;
+  PingFilter filter_;
+  Target target_ = Target::hold(Reason::no_neighbour);
+  Eigen::Vector2d target_position_ = Eigen::Vector2d::Zero();
+};
+
+}  // namespace shoal::formations

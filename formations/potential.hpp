@@ -1,0 +1,56 @@
+#pragma once
+
+#include <memory>
+
+#include "shoal/core/registry.hpp"
+#include "shoal/solvers/taylor.hpp"
+
+namespace shoal::formations {
+
+/// A pair potential at one distance: value, first and second derivative with respect to it.
+struct RadialValue {
+  double value = 0.0;
+  double slope = 0.0;
+  double curvature = 0.0;
+};
+
+/// A potential between two vehicles as a function of their distance r (m, above 0), lowest at the
+/// separation s (m).
+class Potential {
+ public:
+  static constexpr const char* family = "potential";
+  static constexpr const char* family_meaning = "pair potential of two vehicles";
+
+  virtual ~Potential() = default;
+  virtual double value(double r, double s) const = 0;
+  virtual RadialValue derivatives(double r, double s) const = 0;
+};
+
+/// Makes a Potential of a struct with `template <class T> T operator()(const T& r, double s) const`;
+/// the derivatives are exact.
+template <class Law>
+class PotentialOf final : public Potential {
+ public:
+  explicit PotentialOf(const Law& law) : law_(law) {}
+
+  double value(double r, double s) const override { return law_(r, s); }
+
+  RadialValue derivatives(double r, double s) const override {
+    const auto f = solvers::Taylor<1>(law_(solvers::Taylor<1>::unknown(r, 0), s));
+    return {f.value, f.gradient[0], f.hessian(0, 0)};
+  }
+
+ private:
+  Law law_;
+};
+
+/// Enrols a potential law: `const EnrolPotential<LennardJones> enrolled{"lennard_jones", "..."};`
+template <class Law>
+struct EnrolPotential : Enrol<Potential, Law> {
+  EnrolPotential(std::string name, std::string summary)
+      : Enrol<Potential, Law>(std::move(name), std::move(summary), [](const Law& law) {
+          return std::make_unique<PotentialOf<Law>>(law);
+        }) {}
+};
+
+}  // namespace shoal::formations

@@ -1,0 +1,77 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "shoal/core/options.hpp"
+#include "shoal/core/random.hpp"
+#include "shoal/formations/ping_filter.hpp"
+#include "shoal/scenarios/vehicles/swarm.hpp"
+
+namespace shoal::scenarios {
+
+/// When vehicles ping, how far they are heard, and how well: Rypkema 2015, sec. 4.1.
+struct PingOptions {
+  enum class Schedule { synchronous, staggered };
+
+  double period_s = 30.0;
+  Schedule schedule = Schedule::synchronous;
+  double first_s = 0.0;
+  double range_m = 550.0;
+  double sound_speed_m_s = 1500.0;
+  double range_sd_m = 1.5;
+  double bearing_sd_deg = 5.0;
+  double elevation_sd_deg = 5.0;
+  double minimum_range_m = 0.5;
+  double loss_probability = 0.0;
+  bool identified = true;
+
+  static void declare(Options<PingOptions>& o);
+};
+
+/// A ping that has left its sender and not yet reached one receiver.
+struct PingUnderway {
+  double x_m, y_m, depth_m;  ///< of the sender, at emission
+  double emitted_s;
+  std::uint32_t sender;
+  std::uint32_t emission;  ///< how many pings the sender had sent before
+};
+
+/// What one receiver is about to hear, and where it was when that was last looked at.
+struct Hydrophone {
+  std::vector<PingUnderway> underway;
+  double x_m = 0.0, y_m = 0.0, depth_m = 0.0;
+};
+
+/// A ping as received, and where the receiver was then.
+struct Reception {
+  formations::Ping ping;
+  Eigen::Vector2d own_position;
+};
+
+/// The acoustic channel: a sphere of sound grows from where each sender was at emission, and a ping
+/// is received when it passes the receiver, with noise, if it is not lost.
+class Channel {
+ public:
+  Channel(const PingOptions& options, const RandomStreams& random)
+      : options_(options), random_(random) {}
+
+  /// True if this receiver misses this ping.
+  bool loses(const PingUnderway& ping, std::uint32_t receiver) const;
+
+  /// The pings that reach receiver `i` during the tick that ends at `now_s`, in order of arrival,
+  /// appended to `received`. The swarm is where it is at `now_s`.
+  void listen(const Swarm& swarm, std::size_t i, double now_s, double tick_s,
+              Hydrophone& hydrophone, std::vector<Reception>& received) const;
+
+  const PingOptions& options() const { return options_; }
+
+ private:
+  formations::Ping measured(const PingUnderway& ping, std::uint32_t receiver,
+                            const Eigen::Vector3d& to_sender, double time_s) const;
+
+  PingOptions options_;
+  RandomStreams random_;
+};
+
+}  // namespace shoal::scenarios

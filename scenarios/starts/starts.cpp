@@ -1,0 +1,110 @@
+#include <cmath>
+#include <limits>
+
+#include "shoal/core/angles.hpp"
+#include "shoal/core/grid_index.hpp"
+#include "shoal/core/text.hpp"
+#include "shoal/scenarios/starts/start.hpp"
+
+namespace shoal::scenarios {
+namespace {
+
+constexpr const char* heading_meaning =
+    "compass heading of every vehicle; the author's trials started at 180";
+
+/// Uniform in a square around the origin: Rypkema 2015, sec. 4.4.1.
+class BoxStart final : public StartSource {
+ public:
+  double side_m = 200.0;
+  double heading_deg = 180.0;
+
+  static void declare(Options<BoxStart>& o) {
+    o.number("side_m", &BoxStart::side_m, "m", above(0), "side of the square");
+    o.number("heading_deg", &BoxStart::heading_deg, "deg", in(-360, 360), heading_meaning);
+  }
+
+  std::vector<Start> place(const formations::Plan& plan,
+                           const RandomStreams& random) const override {
+    std::vector<Start> starts;
+    for (int i = 0; i < plan.size(); ++i) {
+      const auto [u, v] = random.uniform(Purpose::start, static_cast<std::uint32_t>(i), 0);
+      starts.push_back({(u - 0.5) * side_m, (v - 0.5) * side_m, from_compass_deg(heading_deg)});
+    }
+    return starts;
+  }
+};
+
+/// On the slots of the centred plan: Rypkema 2015, sec. 4.4.2.
+class PlanStart final : public StartSource {
+ public:
+  double heading_deg = 180.0;
+
+  static void declare(Options<PlanStart>& o) {
+    o.number("heading_deg", &PlanStart::heading_deg, "deg", in(-360, 360), heading_meaning);
+  }
+
+  std::vector<Start> place(const formations::Plan& plan, const RandomStreams&) const override {
+    std::vector<Start> starts;
+    const formations::Plan centred = plan.centred();
+    for (const Eigen::Vector2d& slot : centred.slots()) {
+      starts.push_back({slot.x(), slot.y(), from_compass_deg(heading_deg)});
+    }
+    return starts;
+  }
+};
+
+/// At given points, in the order of the slots.
+class PointsStart final : public StartSource {
+ public:
+  std::vector<Eigen::Vector2d> points;
+  double heading_deg = 180.0;
+  Origin origin;
+
+  static void declare(Options<PointsStart>& o) {
+    o.points("points", &PointsStart::points, "one [x, y] per slot of the plan, in its order");
+    o.number("heading_deg", &PointsStart::heading_deg, "deg", in(-360, 360), heading_meaning);
+  }
+
+  std::vector<Start> place(const formations::Plan& plan, const RandomStreams&) const override {
+    if (points.size() != static_cast<std::size_t>(plan.size())) {
+      throw InputError(origin, "swarm.start.points has " + std::to_string(points.size()) +
+                                   " points, but the plan has " + std::to_string(plan.size()) +
+                                   " slots; give one point per slot");
+    }
+    std::vector<Start> starts;
+    for (const Eigen::Vector2d& p : points) {
+      starts.push_back({p.x(), p.y(), from_compass_deg(heading_deg)});
+    }
+    require_distinct(starts, plan, origin);
+    return starts;
+  }
+};
+
+const Enrol<StartSource, BoxStart> box{"box", "uniform in a square around the origin"};
+const Enrol<StartSource, PlanStart> on_plan{"plan", "on the slots of the plan, centred"};
+const Enrol<StartSource, PointsStart> at_points{"points", "at points given in the scenario"};
+
+}  // namespace
+
+void require_distinct(const std::vector<Start>& starts, const formations::Plan& plan,
+                      const Origin& origin) {
+  std::vector<double> x, y;
+  for (const Start& start : starts) {
+    x.push_back(start.x_m);
+    y.push_back(start.y_m);
+  }
+  constexpr double coincident_m = 1e-3;
+  GridIndex grid;
+  grid.build(x, y, 1.0);
+  for (std::size_t i = 0; i < starts.size(); ++i) {
+    grid.near(x[i], y[i], [&](std::size_t j) {
+      if (j <= i || std::hypot(x[i] - x[j], y[i] - y[j]) >= coincident_m) return;
+      throw InputError(origin, plan.name(static_cast<int>(i)) + " and " +
+                                   plan.name(static_cast<int>(j)) + " both start at (" +
+                                   shortest(x[i]) + ", " + shortest(y[i]) +
+                                   "); move one of them");
+    });
+  }
+}
+
+}  // namespace shoal::scenarios

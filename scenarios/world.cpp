@@ -1,0 +1,239 @@
+#include "shoal/scenarios/world.hpp"
+
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace shoal::scenarios {
+namespace {
+
+using formations::Command;
+using formations::DriftGuidance;
+
+// Enough vehicles to share the work per call, few enough to stay in the cache for a whole stretch.
+constexpr std::size_t block_size = 64;
+
+// The author's log rounds speeds to a centimetre per second before it asks whether they are zero.
+constexpr double moving_m_s = 0.005;
+
+}  // namespace
+
+World::World(const Scenario& scenario, int threads)
+    : scenario_(scenario),
+      threads_(threads),
+      random_(static_cast<std::uint64_t>(scenario.trial.seed)),
+      plan_(std::make_shared<formations::Plan>(scenario.plan.make()->plan())),
+      current_(scenario.current.make()),
+      channel_(scenario.ping, random_) {
+  const auto n = static_cast<std::size_t>(plan_->size());
+  if (n < 2) {
+    throw InputError(scenario.plan.setting().origin,
+                     "the plan has one slot; a swarm needs at least two vehicles");
+  }
+  const double tick_s = scenario.trial.tick_s;
+  current_->require_duration(scenario.trial.duration_s);
+  const std::vector<Start> starts = scenario.swarm.start.make()->place(*plan_, random_);
+  swarm_ = scenario.swarm.vehicle.make()->launch(starts, scenario.energy, random_, tick_s);
+
+  const std::shared_ptr<const formations::Behaviour> behaviour = scenario.behaviour.make();
+  for (std::size_t i = 0; i < n; ++i) {
+    planners_.emplace_back(plan_, behaviour, plan_->name(static_cast<int>(i)),
+                           scenario.ping_filter);
+  }
+  guidance_.resize(n);
+  commands_.resize(n);
+  hydrophones_.resize(n);
+  replan_tick_.assign(n, std::numeric_limits<std::int64_t>::max());
+  u_m_s_.resize(n);
+  v_m_s_.resize(n);
+  logbooks_.resize(n);
+  lost_s_.assign(n, -1.0);
+
+  end_tick_ = ticks_of(scenario.trial.duration_s, tick_s, "trial.duration_s");
+  guidance_ticks_ = ticks_of(scenario.guidance.period_s, tick_s, "guidance.period_s");
+  planner_ticks_ = scenario.planner.update == PlannerOptions::Update::tick
+                       ? ticks_of(scenario.planner.period_s, tick_s, "planner.period_s")
+                       : 0;
+  loss_ticks_ =
+      scenario.faults.node_loss.count > 0
+          ? ticks_of(scenario.faults.node_loss.every_s, tick_s, "faults.node_loss.every_s")
+          : 0;
+  forget_ticks_ =
+      static_cast<std::int64_t>(scenario.ping_filter.contact_timeout_s / tick_s) + 1;
+  for (std::size_t i = 0; i < n; ++i) next_emission_.push_back(emission_tick(i, 0));
+}
+
+World::~World() = default;
+
+double World::propulsion_wh(std::size_t i) const { return swarm_->propulsion_j[i] / joules_per_wh; }
+
+double World::hotel_wh(std::size_t i) const {
+  return scenario_.energy.hotel_w * (lost(i) ? lost_s_[i] : time_s()) / joules_per_wh;
+}
+
+double World::comms_wh(std::size_t i) const {
+  return scenario_.energy.ping_j * static_cast<double>(logbooks_[i].pings_sent) / joules_per_wh;
+}
+
+void World::run(std::span<Observer* const> observers) {
+  tbb::task_arena arena(threads_);
+  const std::size_t blocks = (size() + block_size - 1) / block_size;
+  const auto ticks = [&](const Observer* o) {
+    return ticks_of(o->every_s(), scenario_.trial.tick_s, "an observer's interval");
+  };
+  while (true) {
+    lose_vehicles();
+    send_pings();
+    for (Observer* observer : observers) {
+      if (tick_ % ticks(observer) == 0) observer->observe(*this);
+    }
+    if (tick_ == end_tick_) return;
+
+    const std::int64_t until = next_event(observers);
+    const auto run_blocks = [&](std::size_t begin, std::size_t end) {
+      for (std::size_t b = begin; b < end; ++b) {
+        run_block(b * block_size, std::min(size(), (b + 1) * block_size), until);
+      }
+    };
+    if (threads_ == 1 || blocks == 1) {
+      run_blocks(0, blocks);
+    } else {
+      arena.execute([&] {
+        tbb::parallel_for(tbb::blocked_range<std::size_t>(0, blocks),
+                          [&](const auto& range) { run_blocks(range.begin(), range.end()); });
+      });
+    }
+    tick_ = until;
+  }
+}
+
+std::int64_t World::next_event(std::span<Observer* const> observers) const {
+  const auto following = [this](std::int64_t ticks) { return (tick_ / ticks + 1) * ticks; };
+  std::int64_t next = end_tick_;
+  for (const Observer* o : observers) {
+    next = std::min(next, following(ticks_of(o->every_s(), scenario_.trial.tick_s, "")));
+  }
+  if (loss_ticks_ > 0) next = std::min(next, following(loss_ticks_));
+  for (std::size_t i = 0; i < size(); ++i) {
+    if (!lost(i)) next = std::min(next, next_emission_[i]);
+  }
+  return next;
+}
+
+void World::lose_vehicles() {
+  if (loss_ticks_ == 0 || tick_ == 0 || tick_ % loss_ticks_ != 0) return;
+  if (static_cast<std::int64_t>(lost_count_) == scenario_.faults.node_loss.count) return;
+  if (lost_count_ == size()) return;
+  const double u = random_.uniform(Purpose::node_loss, 0, lost_count_)[0];
+  auto skip = static_cast<std::size_t>(u * static_cast<double>(size() - lost_count_));
+  for (std::size_t i = 0; i < size(); ++i) {
+    if (lost(i)) continue;
+    if (skip-- > 0) continue;
+    lost_s_[i] = time_s();
+    ++lost_count_;
+    commands_[i] = {};
+    swarm_->speed_m_s[i] = 0.0;
+    return;
+  }
+}
+
+std::int64_t World::emission_tick(std::size_t i, std::int64_t emission) const {
+  const PingOptions& ping = scenario_.ping;
+  const double slot = ping.schedule == PingOptions::Schedule::staggered
+                          ? ping.period_s * static_cast<double>(i) / static_cast<double>(size())
+                          : 0.0;
+  const double time = ping.first_s + slot + static_cast<double>(emission) * ping.period_s;
+  return static_cast<std::int64_t>(std::ceil(time / scenario_.trial.tick_s - 1e-9));
+}
+
+void World::send_pings() {
+  bool indexed = false;
+  for (std::size_t i = 0; i < size(); ++i) {
+    if (lost(i) || next_emission_[i] > tick_) continue;
+    if (!indexed) {
+      // A receiver may come closer by a metre or so while the ping travels.
+      grid_.build(swarm_->x_m, swarm_->y_m, scenario_.ping.range_m + 2.0);
+      indexed = true;
+    }
+    const PingUnderway ping{swarm_->x_m[i], swarm_->y_m[i], swarm_->depth_m[i], time_s(),
+                            static_cast<std::uint32_t>(i),
+                            static_cast<std::uint32_t>(logbooks_[i].pings_sent)};
+    const double far = scenario_.ping.range_m + 2.0;
+    grid_.near(ping.x_m, ping.y_m, [&](std::size_t receiver) {
+      if (receiver == i || lost(receiver)) return;
+      const double dx = swarm_->x_m[receiver] - ping.x_m;
+      const double dy = swarm_->y_m[receiver] - ping.y_m;
+      const double dz = swarm_->depth_m[receiver] - ping.depth_m;
+      if (dx * dx + dy * dy + dz * dz > far * far) return;
+      if (channel_.loses(ping, static_cast<std::uint32_t>(receiver))) return;
+      hydrophones_[receiver].underway.push_back(ping);
+    });
+    next_emission_[i] = emission_tick(i, ++logbooks_[i].pings_sent);
+  }
+}
+
+void World::listen_and_plan(std::size_t i, std::int64_t tick) {
+  const double now = static_cast<double>(tick) * scenario_.trial.tick_s;
+  const Eigen::Vector2d own(swarm_->x_m[i], swarm_->y_m[i]);
+  bool due = tick >= replan_tick_[i];
+  if (!hydrophones_[i].underway.empty()) {
+    thread_local std::vector<Reception> received;
+    received.clear();
+    channel_.listen(*swarm_, i, now, scenario_.trial.tick_s, hydrophones_[i], received);
+    for (const Reception& r : received) planners_[i].receive(r.ping, r.own_position);
+    due |= !received.empty();
+  }
+  if (planner_ticks_ > 0) due = tick % planner_ticks_ == 0;
+  if (!due) return;
+  const formations::Target& target = planners_[i].plan(now, own);
+  replan_tick_[i] = target.reason == formations::Reason::no_neighbour
+                        ? std::numeric_limits<std::int64_t>::max()
+                        : tick + forget_ticks_;
+}
+
+void World::run_block(std::size_t first, std::size_t last, std::int64_t until) {
+  const double tick_s = scenario_.trial.tick_s;
+  const std::size_t count = last - first;
+  Swarm& swarm = *swarm_;
+  const std::span<const double> x(swarm.x_m.data() + first, count);
+  const std::span<const double> y(swarm.y_m.data() + first, count);
+  const std::span<double> u(u_m_s_.data() + first, count);
+  const std::span<double> v(v_m_s_.data() + first, count);
+  double x_before[block_size], y_before[block_size];
+
+  for (std::int64_t tick = tick_; tick < until; ++tick) {
+    const bool guided = tick % guidance_ticks_ == 0;
+    for (std::size_t i = first; i < last; ++i) {
+      if (lost(i)) continue;
+      listen_and_plan(i, tick);
+      if (!guided) continue;
+      const Eigen::Vector2d own(swarm.x_m[i], swarm.y_m[i]);
+      commands_[i] = scenario_.guidance.command(planners_[i].target_from(own), guidance_[i]);
+    }
+
+    current_->sample(static_cast<double>(tick) * tick_s, x, y, u, v);
+    if (lost_count_ > 0) {
+      for (std::size_t i = first; i < last; ++i) {
+        if (lost(i)) u_m_s_[i] = v_m_s_[i] = 0.0;
+      }
+    }
+    std::ranges::copy(x, x_before);
+    std::ranges::copy(y, y_before);
+    swarm.advance(first, last, tick, commands_, u_m_s_, v_m_s_);
+
+    for (std::size_t i = first; i < last; ++i) {
+      const double dx = swarm.x_m[i] - x_before[i - first];
+      const double dy = swarm.y_m[i] - y_before[i - first];
+      const double path = std::sqrt(dx * dx + dy * dy);
+      Logbook& log = logbooks_[i];
+      log.distance_m += path;
+      log.thrust_distance_m += swarm.speed_m_s[i] >= moving_m_s ? path : 0.0;
+      log.thrusting_s += commands_[i].thrust ? tick_s : 0.0;
+    }
+  }
+}
+
+}  // namespace shoal::scenarios

@@ -1,0 +1,95 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "shoal/core/grid_index.hpp"
+#include "shoal/formations/planner.hpp"
+#include "shoal/scenarios/scenario.hpp"
+
+namespace shoal::scenarios {
+
+class World;
+
+/// Somebody who looks at the world from time to time and changes nothing.
+class Observer {
+ public:
+  virtual ~Observer() = default;
+  /// Seconds between two looks; a multiple of the tick.
+  virtual double every_s() const = 0;
+  virtual void observe(const World& world) = 0;
+};
+
+/// What one vehicle has done since mission start.
+struct Logbook {
+  double thrusting_s = 0.0;        ///< time under a command to move (not latched as drifting)
+  double distance_m = 0.0;         ///< over ground
+  double thrust_distance_m = 0.0;  ///< of that, while moving through the water
+  std::int64_t pings_sent = 0;
+};
+
+/// A swarm in its sea.
+///
+/// Time goes in ticks. Between the instants at which vehicles influence one another (pings, losses)
+/// or somebody looks, every vehicle listens, plans, is guided and moves on its own; blocks of
+/// vehicles run through such a stretch in parallel, and the numbers do not depend on how many
+/// threads there are. Nothing is allocated in the steady state.
+class World {
+ public:
+  /// Opens everything the scenario names. Throws InputError.
+  explicit World(const Scenario& scenario, int threads = 1);
+  ~World();
+
+  /// Runs the mission to its end. Each observer looks at time zero, then at its own interval, and
+  /// last at the end of the mission if that is one of its instants.
+  void run(std::span<Observer* const> observers);
+
+  double time_s() const { return static_cast<double>(tick_) * scenario_.trial.tick_s; }
+  std::size_t size() const { return swarm_->size(); }
+  const Scenario& scenario() const { return scenario_; }
+  const formations::Plan& plan() const { return *plan_; }
+  const Swarm& swarm() const { return *swarm_; }
+  bool lost(std::size_t i) const { return lost_s_[i] >= 0.0; }
+  std::size_t lost_count() const { return lost_count_; }
+  const Logbook& logbook(std::size_t i) const { return logbooks_[i]; }
+  const formations::Planner& planner(std::size_t i) const { return planners_[i]; }
+  const formations::Command& command(std::size_t i) const { return commands_[i]; }
+
+  double propulsion_wh(std::size_t i) const;
+  double hotel_wh(std::size_t i) const;
+  double comms_wh(std::size_t i) const;
+
+ private:
+  std::int64_t next_event(std::span<Observer* const> observers) const;
+  void lose_vehicles();
+  void send_pings();
+  void run_block(std::size_t first, std::size_t last, std::int64_t until);
+  void listen_and_plan(std::size_t i, std::int64_t tick);
+  std::int64_t emission_tick(std::size_t i, std::int64_t emission) const;
+
+  Scenario scenario_;
+  int threads_;
+  RandomStreams random_;
+  std::shared_ptr<const formations::Plan> plan_;
+  std::unique_ptr<Current> current_;
+  Channel channel_;
+  std::unique_ptr<Swarm> swarm_;
+
+  std::vector<formations::Planner> planners_;
+  std::vector<formations::DriftGuidance::State> guidance_;
+  std::vector<formations::Command> commands_;
+  std::vector<Hydrophone> hydrophones_;
+  std::vector<std::int64_t> replan_tick_;  // when what was last heard has been forgotten
+  std::vector<double> u_m_s_, v_m_s_;
+  std::vector<Logbook> logbooks_;
+  std::vector<double> lost_s_;  // when a vehicle was lost, or negative
+  std::size_t lost_count_ = 0;
+  std::vector<std::int64_t> next_emission_;  // tick
+  GridIndex grid_;
+
+  std::int64_t tick_ = 0, end_tick_, guidance_ticks_, planner_ticks_, loss_ticks_, forget_ticks_;
+};
+
+}  // namespace shoal::scenarios

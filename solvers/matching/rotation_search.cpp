@@ -1,0 +1,168 @@
+#include "shoal/solvers/matching/rotation_search.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+#include "shoal/core/angles.hpp"
+#include "shoal/core/error.hpp"
+#include "shoal/core/text.hpp"
+
+namespace shoal::solvers {
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr double division_tolerance = 1e-9;
+
+std::size_t at(int i) {
+  return static_cast<std::size_t>(i);
+}
+
+}  // namespace
+
+Turns::Turns(double step_deg) : step_deg_(step_deg) {
+  if (!(step_deg > 0.0 && step_deg <= 360.0)) {
+    throw InputError("a rotation step of " + shortest(step_deg) +
+                     " degrees: it must be above 0 and at most 360");
+  }
+  const int count = static_cast<int>(std::floor(360.0 / step_deg + division_tolerance));
+  for (int turn = 0; turn < count; ++turn) {
+    cosine_.push_back(std::cos(angle(turn)));
+    sine_.push_back(std::sin(angle(turn)));
+  }
+}
+
+double Turns::angle(int turn) const {
+  return radians((turn + 1) * step_deg_);
+}
+
+bool Turns::permuted_by(double angle_deg) const {
+  const auto divided = [this](double degrees) {
+    const double quotient = degrees / step_deg_;
+    return std::abs(quotient - std::round(quotient)) <= division_tolerance;
+  };
+  return divided(angle_deg) && (divided(360.0) || angle_deg == 0.0);
+}
+
+AlignedSlots::AlignedSlots(std::span<const Eigen::Vector2d> slots, const Eigen::Vector2d& centre) {
+  const auto count = static_cast<Eigen::Index>(slots.size());
+  x.resize(count);
+  y.resize(count);
+  for (Eigen::Index j = 0; j < count; ++j) {
+    const Eigen::Vector2d placed = slots[static_cast<std::size_t>(j)] - centre;
+    x[j] = placed.x();
+    y[j] = placed.y();
+  }
+  radius = (x.square() + y.square()).sqrt();
+  std::sort(radius.begin(), radius.end());
+}
+
+void RotationSearch::set_points(std::span<const Eigen::Vector2d> points) {
+  own_order_.assign(points.begin(), points.end());
+  points_.clear();
+  for (const Eigen::Vector2d& p : points) points_.push_back({p.x(), p.y(), p.norm()});
+  std::sort(points_.begin(), points_.end(),
+            [](const Point& a, const Point& b) { return a.radius > b.radius; });
+}
+
+// |p - q| is at least the difference of their radii. The matching of sorted radii that is cheapest
+// keeps their order, so with d slots too many the i-th radius meets one of the i-th to (i+d)-th.
+double RotationSearch::bound_below(const AlignedSlots& slots) const {
+  const auto count = static_cast<Eigen::Index>(points_.size());
+  const Eigen::Index spare = slots.radius.size() - count;
+  double sum = 0.0;
+  for (Eigen::Index i = 0; i < count && spare >= 0; ++i) {
+    const double radius = points_[static_cast<std::size_t>(count - 1 - i)].radius;
+    double nearest = infinity;
+    for (Eigen::Index j = i; j <= i + spare; ++j) {
+      nearest = std::min(nearest, std::abs(slots.radius[j] - radius));
+    }
+    sum += nearest;
+  }
+  return sum;
+}
+
+TurnedMatch RotationSearch::search(const Turns& turns, const AlignedSlots& slots, double limit) {
+  const int rows = static_cast<int>(points_.size());
+  if (rows > slots.size()) throw std::invalid_argument("rotation search: more points than slots");
+
+  glance_.resize(at(turns.count()));
+  for (int turn = 0; turn < turns.count(); ++turn) {
+    glance_[at(turn)] = glance(slots, turns.cosine(turn), turns.sine(turn));
+  }
+  cost_of_turn_.assign(at(turns.count()), infinity);
+  costs_.resize(at(rows) * at(slots.size()));
+  assignment_.reset(rows, slots.size());
+
+  // Round the circle from the most promising turn, so that the prices of one turn fit the next.
+  const int first = static_cast<int>(std::ranges::min_element(glance_) - glance_.begin());
+  double least = infinity;
+  for (int step = 0; step < turns.count(); ++step) {
+    const int turn = (first + step) % turns.count();
+    if (glance_[at(turn)] > limit) continue;
+    if (!fill_costs(slots, turns.cosine(turn), turns.sine(turn), limit)) continue;
+    if (assignment_.solve_similar(costs_, limit) != AssignmentStatus::optimal) continue;
+    cost_of_turn_[at(turn)] = assignment_.cost();
+    least = std::min(least, assignment_.cost());
+    limit = std::min(limit, least + cost_tie_m);
+  }
+  if (least == infinity) return {};
+  int winner = 0;
+  while (cost_of_turn_[at(winner)] > least + cost_tie_m) ++winner;
+  return {winner, cost_of_turn_[at(winner)]};
+}
+
+void RotationSearch::match(const Turns& turns, const AlignedSlots& slots, int turn) {
+  const double cosine = turns.cosine(turn);
+  const double sine = turns.sine(turn);
+  const Eigen::Index columns = slots.size();
+  costs_.resize(own_order_.size() * at(slots.size()));
+  double* row = costs_.data();
+  for (const Eigen::Vector2d& p : own_order_) {
+    const double x = cosine * p.x() - sine * p.y();
+    const double y = sine * p.x() + cosine * p.y();
+    Eigen::Map<Eigen::ArrayXd>(row, columns) =
+        ((slots.x - x).square() + (slots.y - y).square()).sqrt();
+    row += columns;
+  }
+  const auto status = assignment_.solve(costs_, static_cast<int>(own_order_.size()), slots.size());
+  if (status != AssignmentStatus::optimal) {
+    throw std::invalid_argument("rotation search: more points than slots, or not finite");
+  }
+}
+
+// A lower bound for little work: the nearest slots of the farthest points.
+double RotationSearch::glance(const AlignedSlots& slots, double cosine, double sine) const {
+  constexpr std::size_t few = 4;
+  double sum = 0.0;
+  for (std::size_t i = 0; i < std::min(few, points_.size()); ++i) {
+    const Point& p = points_[i];
+    const double x = cosine * p.x - sine * p.y;
+    const double y = sine * p.x + cosine * p.y;
+    sum += std::sqrt(((slots.x - x).square() + (slots.y - y).square()).minCoeff());
+  }
+  return sum;
+}
+
+// Gives up as soon as the prices of the last assignment prove that this one costs more.
+bool RotationSearch::fill_costs(const AlignedSlots& slots, double cosine, double sine,
+                                double limit) {
+  const Eigen::Index columns = slots.size();
+  const Eigen::Map<const Eigen::ArrayXd> prices(assignment_.prices().data(), columns);
+  // Distances are not negative, so a row's share is at least minus the highest price.
+  const double share = -assignment_.highest_price();
+  double bound = assignment_.price_sum() + share * static_cast<double>(points_.size());
+  double* row = costs_.data();
+  for (const Point& p : points_) {
+    const double x = cosine * p.x - sine * p.y;
+    const double y = sine * p.x + cosine * p.y;
+    Eigen::Map<Eigen::ArrayXd> distances(row, columns);
+    distances = ((slots.x - x).square() + (slots.y - y).square()).sqrt();
+    bound += (distances - prices).minCoeff() - share;
+    if (bound > limit) return false;
+    row += columns;
+  }
+  return true;
+}
+
+}  // namespace shoal::solvers

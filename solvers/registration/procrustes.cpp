@@ -1,0 +1,53 @@
+#include <algorithm>
+#include <cmath>
+
+#include "shoal/solvers/registration/registration.hpp"
+
+namespace shoal::solvers {
+
+std::string_view name_of(RegistrationStatus status) {
+  switch (status) {
+    case RegistrationStatus::fitted:
+      return "fitted";
+    case RegistrationStatus::translation_only:
+      return "translation_only";
+    case RegistrationStatus::bad_input:
+      return "bad_input";
+  }
+  return "unknown";
+}
+
+RegistrationSolution Procrustes::solve() const {
+  RegistrationSolution solution;
+  if (bad_ || !any_) return solution;
+
+  const double share = 1.0 / weight_;
+  const Eigen::Vector2d from_mean = share * from_sum_;
+  const Eigen::Vector2d to_mean = share * to_sum_;
+  const double dot = dot_ - from_sum_.dot(to_mean);
+  const double cross = cross_ - (from_sum_.x() * to_mean.y() - from_sum_.y() * to_mean.x());
+  const double from_spread = from_squared_ - from_sum_.dot(from_mean);
+  const double to_spread = to_squared_ - to_sum_.dot(to_mean);
+  const double squared = dot * dot + cross * cross;
+  const double scale_squared = from_squared_ * to_squared_;
+  if (!std::isfinite(squared) || !std::isfinite(scale_squared)) return solution;
+
+  // What is left of dot and cross after the means went is rounding, some 1e-15 of the sums.
+  // Coincident points leave nothing else, nor do sets whose pairs turn both ways alike.
+  constexpr double rounding = 1e-12;
+  if (squared > rounding * rounding * scale_squared) {
+    const double length = std::sqrt(squared);
+    solution.status = RegistrationStatus::fitted;
+    solution.T_to_from.cosine = dot / length;
+    solution.T_to_from.sine = cross / length;
+    solution.cost = std::max(0.0, from_spread + to_spread - 2.0 * length);
+  } else {
+    solution.status = RegistrationStatus::translation_only;
+    solution.cost = std::max(0.0, from_spread + to_spread - 2.0 * dot);
+  }
+  solution.T_to_from.translation =
+      to_origin_ + to_mean - solution.T_to_from.rotate(from_origin_ + from_mean);
+  return solution;
+}
+
+}  // namespace shoal::solvers
