@@ -17,7 +17,8 @@ constexpr double degrees(double radians) {
 
 /// The same angle in [-pi, pi].
 inline double wrapped(double angle) {
-  return std::remainder(angle, 2.0 * std::numbers::pi);
+  const bool inside = std::abs(angle) <= std::numbers::pi;  // most are, and remainder() is slow
+  return inside ? angle : std::remainder(angle, 2.0 * std::numbers::pi);
 }
 
 inline double from_compass_deg(double compass_deg) {

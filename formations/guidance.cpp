@@ -53,8 +53,7 @@ Command DriftGuidance::command(const Eigen::Vector2d& relative_target, State& st
 
   if (distance > drifting_radius_m) {
     state.drifting = false;
-  } else if (distance < capture_radius_m ||
-             (distance < slip_radius_m && distance > previous)) {
+  } else if (distance < capture_radius_m || (distance < slip_radius_m && distance > previous)) {
     state.drifting = true;
   }
   if (state.drifting) return {};
@@ -63,8 +62,7 @@ Command DriftGuidance::command(const Eigen::Vector2d& relative_target, State& st
   if (distance < drifting_radius_m) {
     // Alg. 1, lines 10-11 and 15-16, with the end speed of Table 3.1: speed x end_speed_scale. The
     // algorithm adds the bare scale, which is a speed only when the transit speed is 1 m/s.
-    const double far =
-        (distance - capture_radius_m) / (drifting_radius_m - capture_radius_m);
+    const double far = (distance - capture_radius_m) / (drifting_radius_m - capture_radius_m);
     speed *= far + end_speed_scale * (1.0 - far);
   }
   return {true, std::atan2(target.y(), target.x()), speed};

@@ -20,7 +20,8 @@ void PingFilterOptions::declare(Options<PingFilterOptions>& o) {
 
 void PingFilter::receive(const Ping& ping, const Eigen::Vector2d& own_position) {
   drop_silent(ping.time_s);
-  const Sample sample{ping.time_s, ping.range_m,
+  const Sample sample{ping.time_s,
+                      ping.range_m,
                       {std::cos(ping.bearing_rad), std::sin(ping.bearing_rad)},
                       {std::cos(ping.elevation_rad), std::sin(ping.elevation_rad)}};
   const Eigen::Vector2d measured =

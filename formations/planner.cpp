@@ -18,8 +18,8 @@ void Planner::receive(const Ping& ping, const Eigen::Vector2d& own_position) {
     throw InputError("a ping needs finite numbers and a range of at least 0 m; drop this one");
   }
   if (ping.slot != anonymous && (ping.slot < 0 || ping.slot >= plan_->size())) {
-    throw InputError("a ping says slot " + std::to_string(ping.slot) + ", but the plan has slots 0 to " +
-                     std::to_string(plan_->size() - 1));
+    throw InputError("a ping says slot " + std::to_string(ping.slot) +
+                     ", but the plan has slots 0 to " + std::to_string(plan_->size() - 1));
   }
   if (ping.slot == own_slot_) {
     throw InputError("a ping carries the own id " + plan_->name(own_slot_) +

@@ -26,8 +26,8 @@ class Potential {
   virtual RadialValue derivatives(double r, double s) const = 0;
 };
 
-/// Makes a Potential of a struct with `template <class T> T operator()(const T& r, double s) const`;
-/// the derivatives are exact.
+/// Makes a Potential of a struct with `template <class T> T operator()(const T& r, double s)
+/// const`; the derivatives are exact.
 template <class Law>
 class PotentialOf final : public Potential {
  public:

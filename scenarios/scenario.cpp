@@ -120,8 +120,9 @@ Scenario read_scenario(const Setting& root) {
                        " needs to know who pings; set ping.identified = true");
     }
     if (!scenario.ping.identified && scenario.ping_filter.rest_s >= scenario.ping.period_s) {
-      throw InputError("ping_filter.rest_s must be shorter than ping.period_s, or every ping "
-                       "without id would begin a new track");
+      throw InputError(
+          "ping_filter.rest_s must be shorter than ping.period_s, or every ping "
+          "without id would begin a new track");
     }
   } catch (const InputError& error) {
     const std::string message = error.what();
@@ -136,8 +137,9 @@ std::filesystem::path find_scenario(const std::string& name_or_path) {
   if (fs::exists(name_or_path)) return name_or_path;
   const fs::path in_library = library_path() / (name_or_path + ".toml");
   if (fs::exists(in_library)) return in_library;
-  throw InputError(name_or_path + ": there is no such file, and no scenario of that name in the "
-                                  "library" +
+  throw InputError(name_or_path +
+                   ": there is no such file, and no scenario of that name in the "
+                   "library" +
                    suggestion(name_or_path, library_scenarios()));
 }
 

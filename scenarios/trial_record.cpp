@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "shoal/core/angles.hpp"
+#include "shoal/scenarios/currents/netcdf_file.hpp"
 
 namespace shoal::scenarios {
 namespace {
@@ -27,8 +28,10 @@ Eigen::Vector2d target(const World& w, std::size_t i) {
 }
 
 const Variable variables[] = {
-    {"x", "m", "east of the origin", [](const World& w, std::size_t i) { return w.swarm().x_m[i]; }},
-    {"y", "m", "north of the origin", [](const World& w, std::size_t i) { return w.swarm().y_m[i]; }},
+    {"x", "m", "east of the origin",
+     [](const World& w, std::size_t i) { return w.swarm().x_m[i]; }},
+    {"y", "m", "north of the origin",
+     [](const World& w, std::size_t i) { return w.swarm().y_m[i]; }},
     {"depth", "m", "depth", [](const World& w, std::size_t i) { return w.swarm().depth_m[i]; }},
     {"heading", "degree", "compass heading",
      [](const World& w, std::size_t i) { return to_compass_deg(w.swarm().heading_rad[i]); }},
@@ -44,7 +47,7 @@ const Variable variables[] = {
      [](const World& w, std::size_t i) {
        return static_cast<double>(w.planner(i).last_target().reason);
      }},
-    {"energy_propulsion", "W h", "electrical energy spent on thrust and turning", 
+    {"energy_propulsion", "W h", "electrical energy spent on thrust and turning",
      [](const World& w, std::size_t i) { return w.propulsion_wh(i); }},
     {"energy_hotel", "W h", "electrical energy of the hotel load",
      [](const World& w, std::size_t i) { return w.hotel_wh(i); }},
@@ -153,6 +156,7 @@ void TrialRecord::observe(const World& world) {
 void TrialRecord::write(const std::filesystem::path& path, const World& world,
                         const std::vector<Series>& series,
                         const std::vector<std::pair<std::string, std::string>>& attributes) const {
+  const std::lock_guard lock(netcdf_mutex());
   File file(path);
   file.text(NC_GLOBAL, "Conventions", "CF-1.8");
   file.text(NC_GLOBAL, "featureType", "trajectory");
@@ -184,8 +188,8 @@ void TrialRecord::write(const std::filesystem::path& path, const World& world,
       file.text(id, "flag_meanings", reason_meanings());
       std::vector<float> flags;
       for (int r = 0; r < formations::reason_count; ++r) flags.push_back(static_cast<float>(r));
-      file.check(nc_put_att_float(file.id(), id, "flag_values", NC_FLOAT, flags.size(),
-                                  flags.data()));
+      file.check(
+          nc_put_att_float(file.id(), id, "flag_values", NC_FLOAT, flags.size(), flags.data()));
     }
     ids.push_back(id);
   }
@@ -194,8 +198,7 @@ void TrialRecord::write(const std::filesystem::path& path, const World& world,
     const std::string axis_name = s.name + "_time";
     const int dimension = file.dimension(axis_name, s.time_s.size());
     const int axis = time_axis(axis_name, dimension);
-    series_ids.emplace_back(axis,
-                            file.variable(s.name, NC_DOUBLE, {dimension}, s.unit, s.meaning));
+    series_ids.emplace_back(axis, file.variable(s.name, NC_DOUBLE, {dimension}, s.unit, s.meaning));
   }
   file.check(nc_enddef(file.id()));
 

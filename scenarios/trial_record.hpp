@@ -28,7 +28,8 @@ class TrialRecord final : public Observer {
 
   /// Writes a CF-1.8 file (trajectories; dimensions vehicle and time) that xarray opens. The file
   /// appears under its name only when it is complete. Throws SystemError.
-  void write(const std::filesystem::path& file, const World& world, const std::vector<Series>& series,
+  void write(const std::filesystem::path& file, const World& world,
+             const std::vector<Series>& series,
              const std::vector<std::pair<std::string, std::string>>& attributes) const;
 
  private:

@@ -19,6 +19,8 @@ constexpr std::size_t block_size = 64;
 // The author's log rounds speeds to a centimetre per second before it asks whether they are zero.
 constexpr double moving_m_s = 0.005;
 
+constexpr std::int64_t never = std::numeric_limits<std::int64_t>::max();
+
 }  // namespace
 
 World::World(const Scenario& scenario, int threads)
@@ -46,7 +48,7 @@ World::World(const Scenario& scenario, int threads)
   guidance_.resize(n);
   commands_.resize(n);
   hydrophones_.resize(n);
-  replan_tick_.assign(n, std::numeric_limits<std::int64_t>::max());
+  forget_tick_.assign(n, never);
   u_m_s_.resize(n);
   v_m_s_.resize(n);
   logbooks_.resize(n);
@@ -57,18 +59,19 @@ World::World(const Scenario& scenario, int threads)
   planner_ticks_ = scenario.planner.update == PlannerOptions::Update::tick
                        ? ticks_of(scenario.planner.period_s, tick_s, "planner.period_s")
                        : 0;
-  loss_ticks_ =
-      scenario.faults.node_loss.count > 0
-          ? ticks_of(scenario.faults.node_loss.every_s, tick_s, "faults.node_loss.every_s")
-          : 0;
-  forget_ticks_ =
-      static_cast<std::int64_t>(scenario.ping_filter.contact_timeout_s / tick_s) + 1;
+  wake_tick_.assign(n, planner_ticks_ > 0 ? 0 : never);
+  loss_ticks_ = scenario.faults.node_loss.count > 0 ? ticks_of(scenario.faults.node_loss.every_s,
+                                                               tick_s, "faults.node_loss.every_s")
+                                                    : 0;
+  forget_ticks_ = static_cast<std::int64_t>(scenario.ping_filter.contact_timeout_s / tick_s) + 1;
   for (std::size_t i = 0; i < n; ++i) next_emission_.push_back(emission_tick(i, 0));
 }
 
 World::~World() = default;
 
-double World::propulsion_wh(std::size_t i) const { return swarm_->propulsion_j[i] / joules_per_wh; }
+double World::propulsion_wh(std::size_t i) const {
+  return swarm_->propulsion_j[i] / joules_per_wh;
+}
 
 double World::hotel_wh(std::size_t i) const {
   return scenario_.energy.hotel_w * (lost(i) ? lost_s_[i] : time_s()) / joules_per_wh;
@@ -158,7 +161,10 @@ void World::send_pings() {
       grid_.build(swarm_->x_m, swarm_->y_m, scenario_.ping.range_m + 2.0);
       indexed = true;
     }
-    const PingUnderway ping{swarm_->x_m[i], swarm_->y_m[i], swarm_->depth_m[i], time_s(),
+    const PingUnderway ping{swarm_->x_m[i],
+                            swarm_->y_m[i],
+                            swarm_->depth_m[i],
+                            time_s(),
                             static_cast<std::uint32_t>(i),
                             static_cast<std::uint32_t>(logbooks_[i].pings_sent)};
     const double far = scenario_.ping.range_m + 2.0;
@@ -170,6 +176,7 @@ void World::send_pings() {
       if (dx * dx + dy * dy + dz * dz > far * far) return;
       if (channel_.loses(ping, static_cast<std::uint32_t>(receiver))) return;
       hydrophones_[receiver].underway.push_back(ping);
+      wake_tick_[receiver] = tick_;
     });
     next_emission_[i] = emission_tick(i, ++logbooks_[i].pings_sent);
   }
@@ -177,21 +184,23 @@ void World::send_pings() {
 
 void World::listen_and_plan(std::size_t i, std::int64_t tick) {
   const double now = static_cast<double>(tick) * scenario_.trial.tick_s;
-  const Eigen::Vector2d own(swarm_->x_m[i], swarm_->y_m[i]);
-  bool due = tick >= replan_tick_[i];
+  bool due = planner_ticks_ > 0 ? tick % planner_ticks_ == 0 : tick >= forget_tick_[i];
   if (!hydrophones_[i].underway.empty()) {
     thread_local std::vector<Reception> received;
     received.clear();
     channel_.listen(*swarm_, i, now, scenario_.trial.tick_s, hydrophones_[i], received);
     for (const Reception& r : received) planners_[i].receive(r.ping, r.own_position);
-    due |= !received.empty();
+    if (planner_ticks_ == 0) due |= !received.empty();
   }
-  if (planner_ticks_ > 0) due = tick % planner_ticks_ == 0;
-  if (!due) return;
-  const formations::Target& target = planners_[i].plan(now, own);
-  replan_tick_[i] = target.reason == formations::Reason::no_neighbour
-                        ? std::numeric_limits<std::int64_t>::max()
-                        : tick + forget_ticks_;
+  if (due) {
+    const formations::Target& target = planners_[i].plan(now, {swarm_->x_m[i], swarm_->y_m[i]});
+    // Who hears nobody any more must notice without being told.
+    forget_tick_[i] =
+        target.reason == formations::Reason::no_neighbour ? never : tick + forget_ticks_;
+  }
+  wake_tick_[i] = !hydrophones_[i].underway.empty() ? tick + 1
+                  : planner_ticks_ > 0              ? (tick / planner_ticks_ + 1) * planner_ticks_
+                                                    : forget_tick_[i];
 }
 
 void World::run_block(std::size_t first, std::size_t last, std::int64_t until) {
@@ -208,7 +217,7 @@ void World::run_block(std::size_t first, std::size_t last, std::int64_t until) {
     const bool guided = tick % guidance_ticks_ == 0;
     for (std::size_t i = first; i < last; ++i) {
       if (lost(i)) continue;
-      listen_and_plan(i, tick);
+      if (tick >= wake_tick_[i]) listen_and_plan(i, tick);
       if (!guided) continue;
       const Eigen::Vector2d own(swarm.x_m[i], swarm.y_m[i]);
       commands_[i] = scenario_.guidance.command(planners_[i].target_from(own), guidance_[i]);

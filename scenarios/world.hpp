@@ -81,7 +81,8 @@ class World {
   std::vector<formations::DriftGuidance::State> guidance_;
   std::vector<formations::Command> commands_;
   std::vector<Hydrophone> hydrophones_;
-  std::vector<std::int64_t> replan_tick_;  // when what was last heard has been forgotten
+  std::vector<std::int64_t> forget_tick_;  // when what was heard for the last plan is forgotten
+  std::vector<std::int64_t> wake_tick_;    // when the vehicle next has to listen or to plan
   std::vector<double> u_m_s_, v_m_s_;
   std::vector<Logbook> logbooks_;
   std::vector<double> lost_s_;  // when a vehicle was lost, or negative

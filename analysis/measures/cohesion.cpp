@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <numeric>
 
@@ -8,11 +9,14 @@
 namespace shoal::analysis {
 namespace {
 
+// Up to so many vehicles, looking at every pair is faster than sorting them into a grid.
+constexpr std::size_t few = 64;
+
 /// Does the swarm hold together, and how close do two vehicles come?
 ///
 /// Fragments are the connected parts of the graph of vehicles within acoustic range of one another,
-/// at the end of the mission. The least separation is over all looks, 5 s apart, and has no value if
-/// no two vehicles ever were within acoustic range.
+/// at the end of the mission. The least separation is over all looks, 5 s apart, and has no value
+/// if no two vehicles ever were within acoustic range.
 class Cohesion final : public Measure {
  public:
   static void declare(Options<Cohesion>&) {}
@@ -22,22 +26,40 @@ class Cohesion final : public Measure {
   void observe(const scenarios::World& world) override {
     survivors(world, positions_, slots_);
     split(positions_, x_, y_);
-    // A pair closer than the least so far lies within one cell of that size.
-    grid_.build(x_, y_, std::clamp(least_m_, 1e-3, world.scenario().ping.range_m));
-    for (std::size_t i = 0; i < x_.size(); ++i) {
-      grid_.near(x_[i], y_[i], [&](std::size_t j) {
-        if (j > i) least_m_ = std::min(least_m_, std::hypot(x_[i] - x_[j], y_[i] - y_[j]));
-      });
-    }
+    least_m_ = std::min(least_m_, x_.size() <= few ? least_among_all() : least_among_near(world));
   }
 
   void finish(const scenarios::World& world, Results& results) const override {
-    results.add("min_separation_m", std::isfinite(least_m_) ? std::optional(least_m_) : std::nullopt);
+    results.add("min_separation_m",
+                std::isfinite(least_m_) ? std::optional(least_m_) : std::nullopt);
     results.add("fragments", fragments(world));
     results.add("lost_vehicles", static_cast<double>(world.lost_count()));
   }
 
  private:
+  double least_among_all() const {
+    double least = std::numeric_limits<double>::infinity();
+    for (std::size_t i = 0; i < x_.size(); ++i) {
+      for (std::size_t j = 0; j < i; ++j) {
+        const double dx = x_[i] - x_[j], dy = y_[i] - y_[j];
+        least = std::min(least, dx * dx + dy * dy);
+      }
+    }
+    return std::sqrt(least);
+  }
+
+  // A pair closer than the least so far lies within one cell of that size.
+  double least_among_near(const scenarios::World& world) {
+    double least = std::numeric_limits<double>::infinity();
+    grid_.build(x_, y_, std::clamp(least_m_, 1e-3, world.scenario().ping.range_m));
+    for (std::size_t i = 0; i < x_.size(); ++i) {
+      grid_.near(x_[i], y_[i], [&](std::size_t j) {
+        if (j > i) least = std::min(least, std::hypot(x_[i] - x_[j], y_[i] - y_[j]));
+      });
+    }
+    return least;
+  }
+
   static void split(const std::vector<Eigen::Vector2d>& points, std::vector<double>& x,
                     std::vector<double>& y) {
     x.clear();
@@ -84,8 +106,7 @@ class Cohesion final : public Measure {
   std::vector<double> x_, y_;
 };
 
-const Enrol<Measure, Cohesion> enrolled{"cohesion",
-                                        "min_separation_m, fragments, lost_vehicles"};
+const Enrol<Measure, Cohesion> enrolled{"cohesion", "min_separation_m, fragments, lost_vehicles"};
 
 }  // namespace
 }  // namespace shoal::analysis

@@ -10,9 +10,8 @@ class EnergyMeasure final : public Measure {
   static void declare(Options<EnergyMeasure>&) {}
 
   void finish(const scenarios::World& w, Results& results) const override {
-    const auto total = over_survivors(w, [&](std::size_t i) {
-      return w.propulsion_wh(i) + w.hotel_wh(i) + w.comms_wh(i);
-    });
+    const auto total = over_survivors(
+        w, [&](std::size_t i) { return w.propulsion_wh(i) + w.hotel_wh(i) + w.comms_wh(i); });
     const auto mean = [&](auto value) -> std::optional<double> {
       const auto spread = over_survivors(w, value);
       return spread ? std::optional(spread->mean) : std::nullopt;

@@ -33,9 +33,8 @@ class Progress final : public Measure {
   }
 
   void finish(const scenarios::World& w, Results& results) const override {
-    const auto energy = over_survivors(w, [&](std::size_t i) {
-      return w.propulsion_wh(i) + w.hotel_wh(i) + w.comms_wh(i);
-    });
+    const auto energy = over_survivors(
+        w, [&](std::size_t i) { return w.propulsion_wh(i) + w.hotel_wh(i) + w.comms_wh(i); });
     results.add("centroid_path_m", path_m_);
     results.add("centroid_displacement_m", displacement_.norm());
     results.add("efficiency_m_per_wh", energy && energy->mean > 0.0

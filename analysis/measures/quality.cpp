@@ -54,8 +54,8 @@ class Quality final : public Measure {
     results.add("quality_settled_m", settled_m);
     results.add("time_to_quality_20m_s", reached_s);
     if (every_s_ > 0.0) {
-      results.series.push_back({"quality", "m", "formation quality (Rypkema 2015, sec. 4.3)",
-                                time_s_, quality_m_});
+      results.series.push_back(
+          {"quality", "m", "formation quality (Rypkema 2015, sec. 4.3)", time_s_, quality_m_});
     }
   }
 

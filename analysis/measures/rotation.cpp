@@ -29,8 +29,7 @@ class Rotation final : public Measure {
   }
 
   void finish(const scenarios::World&, Results& results) const override {
-    results.add("formation_rotation_deg",
-                angle_ ? std::optional(degrees(*angle_)) : std::nullopt);
+    results.add("formation_rotation_deg", angle_ ? std::optional(degrees(*angle_)) : std::nullopt);
   }
 
  private:

@@ -43,8 +43,7 @@ class AssignmentRegistration final : public Behaviour {
     if (points.size() < 2) return Target::hold(Reason::no_neighbour);
 
     const solvers::MatchingSolution match =
-        matcher_->solve({points, plan.slots(), options_.ownship_weight,
-                         options_.delta_theta_deg});
+        matcher_->solve({points, plan.slots(), options_.ownship_weight, options_.delta_theta_deg});
     if (!match.usable()) return Target::hold(Reason::solver_failed);
 
     solvers::Procrustes registration;

@@ -42,8 +42,8 @@ class AttractionRepulsionCost final : public solvers::Objective {
       cost += share * f.value;
       slope += share * f.slope * direction;
       const Eigen::Matrix2d radial = direction * direction.transpose();
-      curvature += share * (f.curvature * radial +
-                            (f.slope / r) * (Eigen::Matrix2d::Identity() - radial));
+      curvature +=
+          share * (f.curvature * radial + (f.slope / r) * (Eigen::Matrix2d::Identity() - radial));
     }
     if (gradient) Eigen::Map<Eigen::Vector2d>(gradient, 2) = slope;
     if (hessian) Eigen::Map<Eigen::Matrix2d>(hessian, 2, 2) = curvature;
@@ -75,8 +75,7 @@ struct AttractionRepulsionOptions {
     o.number("separation_m", &A::separation_m, "m", above(0), "distance of lattice neighbours");
     o.number("centroid_weight", &A::centroid_weight, "1/m", at_least(0),
              "pull towards the centroid of all neighbours, against fracture (eq. 3.7)");
-    o.word("combination", &A::combination,
-           {{"sum", Combination::sum}, {"mean", Combination::mean}},
+    o.word("combination", &A::combination, {{"sum", Combination::sum}, {"mean", Combination::mean}},
            "of the two potentials: their sum (eq. 3.7) or their mean (the author's program)");
     o.word("centroid", &A::centroid,
            {{"neighbours", Centroid::neighbours},

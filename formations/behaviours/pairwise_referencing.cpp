@@ -87,9 +87,12 @@ class PairwiseReferencing final : public Behaviour {
  private:
   double weight_of(double midpoint_distance, double age_s) const {
     switch (weighting) {
-      case Weighting::distance: return 1.0 - midpoint_distance / contact_rangeout_m;
-      case Weighting::ping_age: return std::max(0.0, 1.0 - age_s / age_scale_s);
-      case Weighting::none: break;
+      case Weighting::distance:
+        return 1.0 - midpoint_distance / contact_rangeout_m;
+      case Weighting::ping_age:
+        return std::max(0.0, 1.0 - age_s / age_scale_s);
+      case Weighting::none:
+        break;
     }
     return 1.0;
   }

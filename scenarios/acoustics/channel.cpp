@@ -55,23 +55,21 @@ void Channel::listen(const Swarm& swarm, std::size_t i, double now_s, double tic
     const double past =
         options_.sound_speed_m_s * (now_s - ping.emitted_s) - (here - sender).norm();
     if (past < 0.0) return false;
-    const double past_before = options_.sound_speed_m_s * (now_s - tick_s - ping.emitted_s) -
-                               (before - sender).norm();
-    const double share = past > past_before ? std::clamp(-past_before / (past - past_before), 0.0, 1.0)
-                                            : 1.0;
+    const double past_before =
+        options_.sound_speed_m_s * (now_s - tick_s - ping.emitted_s) - (before - sender).norm();
+    const double share =
+        past > past_before ? std::clamp(-past_before / (past - past_before), 0.0, 1.0) : 1.0;
     const Eigen::Vector3d there = before + share * (here - before);
     const Eigen::Vector3d to_sender = sender - there;
     if (to_sender.norm() <= options_.range_m) {
       const double arrival_s = now_s - (1.0 - share) * tick_s;
-      received.push_back({measured(ping, static_cast<std::uint32_t>(i), to_sender, arrival_s),
-                          there.head<2>()});
+      received.push_back(
+          {measured(ping, static_cast<std::uint32_t>(i), to_sender, arrival_s), there.head<2>()});
     }
     return true;
   });
-  std::stable_sort(received.begin() + static_cast<std::ptrdiff_t>(already), received.end(),
-                   [](const Reception& a, const Reception& b) {
-                     return a.ping.time_s < b.ping.time_s;
-                   });
+  std::sort(received.begin() + static_cast<std::ptrdiff_t>(already), received.end(),
+            [](const Reception& a, const Reception& b) { return a.ping.time_s < b.ping.time_s; });
   hydrophone.x_m = here.x();
   hydrophone.y_m = here.y();
   hydrophone.depth_m = here.z();
@@ -88,8 +86,8 @@ formations::Ping Channel::measured(const PingUnderway& ping, std::uint32_t recei
   heard.time_s = time_s;
   heard.range_m =
       std::max(options_.minimum_range_m, to_sender.norm() + options_.range_sd_m * range_noise);
-  heard.bearing_rad = std::atan2(to_sender.y(), to_sender.x()) +
-                      radians(options_.bearing_sd_deg) * bearing_noise;
+  heard.bearing_rad =
+      std::atan2(to_sender.y(), to_sender.x()) + radians(options_.bearing_sd_deg) * bearing_noise;
   heard.elevation_rad = std::atan2(-to_sender.z(), to_sender.head<2>().norm()) +
                         radians(options_.elevation_sd_deg) * elevation_noise;
   heard.slot = options_.identified ? static_cast<int>(ping.sender) : formations::anonymous;

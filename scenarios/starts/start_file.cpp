@@ -26,8 +26,9 @@ class StartFile final : public StartSource {
     if (path.path.empty()) {
       throw InputError(origin, "this start needs a file; set swarm.start.file.path");
     }
-    const formations::CsvTable table({resolved(path), path.origin},
-                                     {.required = {"name", "x_m", "y_m"}, .optional = {"heading_deg"}});
+    const formations::CsvTable table(
+        {resolved(path), path.origin},
+        {.required = {"name", "x_m", "y_m"}, .optional = {"heading_deg"}});
     std::vector<std::optional<Start>> found(static_cast<std::size_t>(plan.size()));
     for (std::size_t row = 0; row < table.rows(); ++row) {
       const std::string& name = table.text(row, "name");
@@ -51,8 +52,7 @@ class StartFile final : public StartSource {
   }
 };
 
-const Enrol<StartSource, StartFile> enrolled{"file",
-                                             "from a CSV file: name,x_m,y_m[,heading_deg]"};
+const Enrol<StartSource, StartFile> enrolled{"file", "from a CSV file: name,x_m,y_m[,heading_deg]"};
 
 }  // namespace
 }  // namespace shoal::scenarios

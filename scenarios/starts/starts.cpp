@@ -101,8 +101,7 @@ void require_distinct(const std::vector<Start>& starts, const formations::Plan& 
       if (j <= i || std::hypot(x[i] - x[j], y[i] - y[j]) >= coincident_m) return;
       throw InputError(origin, plan.name(static_cast<int>(i)) + " and " +
                                    plan.name(static_cast<int>(j)) + " both start at (" +
-                                   shortest(x[i]) + ", " + shortest(y[i]) +
-                                   "); move one of them");
+                                   shortest(x[i]) + ", " + shortest(y[i]) + "); move one of them");
     });
   }
 }

@@ -35,8 +35,11 @@ class DrifterSwarm final : public Swarm {
         noise_ticks_(times(type.heading_noise_period_s, tick_s)),
         turn_rate_(radians(type.turn_rate_deg_s)),
         noise_decay_(std::exp(-type.heading_noise_period_s / type.heading_noise_time_s)),
-        noise_kick_(radians(type.heading_noise_deg_s) * std::sqrt(1.0 - noise_decay_ * noise_decay_)),
+        noise_kick_(radians(type.heading_noise_deg_s) *
+                    std::sqrt(1.0 - noise_decay_ * noise_decay_)),
         noise_limit_(radians(type.heading_noise_limit_deg_s)),
+        knots_per_m_s_(1.0 / type.drag_knot_m_s),
+        per_mass_(type.step_s / type.mass_kg),
         motors_(starts.size()) {
     for (std::size_t i = 0; i < starts.size(); ++i) {
       x_m[i] = starts[i].x_m;
@@ -74,6 +77,28 @@ class DrifterSwarm final : public Swarm {
     double heading_thrust = 0.0;  // -1 .. 1, counter-clockwise
     std::array<double, 16> errors{};
     std::size_t newest = 0;
+    double ahead_x = 1.0, ahead_y = 0.0;  // unit vector of the heading while the vehicle moves
+
+    void face(double heading) {
+      ahead_x = std::cos(heading);
+      ahead_y = std::sin(heading);
+    }
+
+    // Steps are small turns: their series is exact to rounding and much faster than the functions.
+    void turn(double angle) {
+      double c, s;
+      if (std::abs(angle) < 0.05) {
+        const double q = angle * angle;
+        c = 1.0 - q * (1.0 / 2.0 - q * (1.0 / 24.0 - q / 720.0));
+        s = angle * (1.0 - q * (1.0 / 6.0 - q * (1.0 / 120.0 - q / 5040.0)));
+      } else {
+        c = std::cos(angle);
+        s = std::sin(angle);
+      }
+      const double x = ahead_x;
+      ahead_x = c * x - s * ahead_y;
+      ahead_y = s * x + c * ahead_y;
+    }
   };
 
   // The heading rate wanders as an Ornstein-Uhlenbeck process, drawn on its own fixed grid of
@@ -83,8 +108,7 @@ class DrifterSwarm final : public Swarm {
     for (std::size_t i = first; i < last; ++i) {
       Motor& motor = motors_[i];
       if (index % 2 == 0) {
-        const auto normals =
-            random_.normal(Purpose::heading, static_cast<std::uint32_t>(i), pair);
+        const auto normals = random_.normal(Purpose::heading, static_cast<std::uint32_t>(i), pair);
         motor_noise(motor, normals[0]);
         spare_[i] = normals[1];
       } else {
@@ -103,28 +127,29 @@ class DrifterSwarm final : public Swarm {
     Motor& motor = motors_[i];
     motor.on = false;
     const double turned = motor.noise_rad_s * tick_s_;
+    heading_rad[i] += turned;
     double& speed = speed_m_s[i];
-    if (speed > 0.0) {
-      const double before = speed;
-      double path = 0.0;
-      if (glides_ && speed <= type_.drag_knot_m_s) {
-        path = glide_path_ * speed;
-        speed *= glide_speed_;
-        // Slower than this, what is left of the glide is a centimetre.
-        if (speed < 1e-3) speed = 0.0;
-      } else {
-        for (std::int64_t k = 0; k < steps_; ++k) {
-          const double next = std::max(0.0, speed - type_.drag(speed) / type_.mass_kg * type_.step_s);
-          path += 0.5 * (speed + next) * type_.step_s;
-          speed = next;
-        }
+    if (speed == 0.0) return;
+
+    const double before = speed;
+    double path = 0.0;
+    if (glides_ && speed <= type_.drag_knot_m_s) {
+      path = glide_path_ * speed;
+      speed *= glide_speed_;
+      // Slower than this, what is left of the glide is a centimetre.
+      if (speed < 1e-3) speed = 0.0;
+    } else {
+      for (std::int64_t k = 0; k < steps_; ++k) {
+        const double next = std::max(0.0, speed - per_mass_ * drag(speed));
+        path += 0.5 * (speed + next) * type_.step_s;
+        speed = next;
       }
-      const double heading = heading_rad[i] + 0.5 * turned;
-      x_m[i] += path * std::cos(heading);
-      y_m[i] += path * std::sin(heading);
-      propulsion_j[i] += energy_.propulsion_w(0.5 * (before + speed), 0.0) * tick_s_;
     }
-    heading_rad[i] = wrapped(heading_rad[i] + turned);
+    motor.turn(0.5 * turned);
+    x_m[i] += path * motor.ahead_x;
+    y_m[i] += path * motor.ahead_y;
+    motor.turn(0.5 * turned);
+    propulsion_j[i] += energy_.propulsion_w(0.5 * (before + speed), 0.0) * tick_s_;
   }
 
   void thrust(std::size_t i, const Command& command, std::int64_t tick) {
@@ -134,25 +159,28 @@ class DrifterSwarm final : public Swarm {
     if (!motor.on) {
       motor.on = true;
       motor.errors.fill(wrapped(course - heading_rad[i]));
+      motor.face(heading_rad[i]);
     }
     const double dt = type_.step_s;
+    std::int64_t until_control =
+        (controller_steps_ - (tick * steps_) % controller_steps_) % controller_steps_;
     for (std::int64_t k = 0; k < steps_; ++k) {
-      if ((tick * steps_ + k) % controller_steps_ == 0) control(motor, course - heading_rad[i], wanted);
-
-      const double rate = motor.heading_thrust * turn_rate_ + motor.noise_rad_s;
+      if (until_control-- == 0) {
+        control(motor, course - heading_rad[i], wanted);
+        until_control = controller_steps_ - 1;
+      }
+      const double turned = (motor.heading_thrust * turn_rate_ + motor.noise_rad_s) * dt;
       const double speed = speed_m_s[i];
-      const double next =
-          std::max(0.0, speed + dt * (motor.surge_n - type_.drag(speed)) / type_.mass_kg);
-      const double path = 0.5 * (speed + next) * dt;
-      const double heading = heading_rad[i] + 0.5 * rate * dt;
-      const double level = rise(i, path);
-      x_m[i] += level * std::cos(heading);
-      y_m[i] += level * std::sin(heading);
-      heading_rad[i] += rate * dt;
+      const double next = std::max(0.0, speed + per_mass_ * (motor.surge_n - drag(speed)));
+      const double path = rise(i, 0.5 * (speed + next) * dt);
+      motor.turn(0.5 * turned);
+      x_m[i] += path * motor.ahead_x;
+      y_m[i] += path * motor.ahead_y;
+      motor.turn(0.5 * turned);
+      heading_rad[i] += turned;
       speed_m_s[i] = next;
       propulsion_j[i] += energy_.propulsion_w(next, motor.heading_thrust) * dt;
     }
-    heading_rad[i] = wrapped(heading_rad[i]);
   }
 
   // PD on the heading; the speed is feed-forward from the drag map, and fades with heading error.
@@ -164,13 +192,19 @@ class DrifterSwarm final : public Swarm {
     motor.newest = (motor.newest + 1) % size;
     motor.errors[motor.newest] = error;
     // The mean of the last differences telescopes.
-    const double error_rate = wrapped(error - oldest) /
-                              (static_cast<double>(window) * type_.controller_period_s);
-    const double percent =
-        degrees(type_.heading_gain * error + type_.heading_damping * error_rate);
+    const double error_rate =
+        wrapped(error - oldest) / (static_cast<double>(window) * type_.controller_period_s);
+    const double percent = degrees(type_.heading_gain * error + type_.heading_damping * error_rate);
     motor.heading_thrust = std::clamp(percent / 100.0, -1.0, 1.0);
     const double aligned = std::max(0.0, 1.0 - std::abs(degrees(error)) / type_.heading_limit_deg);
-    motor.surge_n = aligned * std::min(type_.drag(wanted_m_s), type_.drag(type_.max_speed_m_s));
+    motor.surge_n = aligned * drag(std::min(wanted_m_s, type_.max_speed_m_s));
+  }
+
+  // drag_n v^2 at the knots of the drag map, linear between them: the chord of v^2. v >= 0.
+  double drag(double v) const {
+    const double low =
+        static_cast<double>(static_cast<std::int64_t>(v * knots_per_m_s_)) * type_.drag_knot_m_s;
+    return type_.drag_n * (low * low + (v - low) * (2.0 * low + type_.drag_knot_m_s));
   }
 
   /// The horizontal part of a path; below the surface the vehicle pitches up and rises along it.
@@ -192,6 +226,7 @@ class DrifterSwarm final : public Swarm {
   double tick_s_;
   std::int64_t steps_, controller_steps_, noise_ticks_;
   double turn_rate_, noise_decay_, noise_kick_, noise_limit_;
+  double knots_per_m_s_, per_mass_;
   double glide_speed_ = 0.0, glide_path_ = 0.0;
   bool glides_ = false;
   std::vector<Motor> motors_;
@@ -257,13 +292,6 @@ std::optional<std::string> Drifter::refuses_tick(double tick_s) const {
     return "the vehicle's heading_noise_period_s must be a multiple of trial.tick_s";
   }
   return std::nullopt;
-}
-
-double Drifter::drag(double v) const {
-  const double knot = std::floor(v / drag_knot_m_s);
-  const double low = knot * drag_knot_m_s;
-  // The chord of v^2 over one knot spacing.
-  return drag_n * (low * low + (v - low) * (2.0 * low + drag_knot_m_s));
 }
 
 std::unique_ptr<Swarm> Drifter::launch(const std::vector<Start>& starts, const Energy& energy,

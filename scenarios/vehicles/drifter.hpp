@@ -37,9 +37,6 @@ struct Drifter final : public VehicleType {
   std::optional<std::string> refuses_tick(double tick_s) const override;
   std::unique_ptr<Swarm> launch(const std::vector<Start>& starts, const Energy& energy,
                                 const RandomStreams& random, double tick_s) const override;
-
-  /// Drag (N) at a speed through water (m/s): drag_n v^2 at the knots, linear between them.
-  double drag(double speed_m_s) const;
 };
 
 }  // namespace shoal::scenarios

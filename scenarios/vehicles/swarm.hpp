@@ -17,7 +17,12 @@ namespace shoal::scenarios {
 class Swarm {
  public:
   explicit Swarm(std::size_t size)
-      : x_m(size), y_m(size), depth_m(size), heading_rad(size), speed_m_s(size), propulsion_j(size) {}
+      : x_m(size),
+        y_m(size),
+        depth_m(size),
+        heading_rad(size),
+        speed_m_s(size),
+        propulsion_j(size) {}
   virtual ~Swarm() = default;
 
   std::size_t size() const { return x_m.size(); }
@@ -27,8 +32,8 @@ class Swarm {
   /// `commands` and the water's velocity (m/s, east and north) hold during the tick and are indexed
   /// like the swarm. Vehicles do not influence one another: disjoint ranges may run in parallel.
   virtual void advance(std::size_t first, std::size_t last, std::int64_t tick,
-                       std::span<const formations::Command> commands,
-                       std::span<const double> u_m_s, std::span<const double> v_m_s) = 0;
+                       std::span<const formations::Command> commands, std::span<const double> u_m_s,
+                       std::span<const double> v_m_s) = 0;
 
   std::vector<double> x_m, y_m;      ///< east and north of the origin
   std::vector<double> depth_m;       ///< positive down

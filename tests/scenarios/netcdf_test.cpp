@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 #include <rapidcheck.h>
+#include <unistd.h>
 
 #include <cmath>
 #include <fstream>
@@ -70,9 +71,19 @@ struct File {
   fs::path write(const std::string& name, int format = NC_64BIT_OFFSET) const;
 };
 
+/// A folder of this process alone, gone when it ends.
+struct Scratch {
+  fs::path folder = fs::path(testing::TempDir()) / ("shoal_netcdf_" + std::to_string(getpid()));
+  ~Scratch() {
+    std::error_code ignored;
+    fs::remove_all(folder, ignored);
+  }
+};
+
 fs::path scratch(const std::string& name) {
-  const auto* test = testing::UnitTest::GetInstance()->current_test_info();
-  const fs::path folder = fs::path(testing::TempDir()) / "shoal_netcdf" / test->name();
+  static const Scratch scratch;
+  const fs::path folder =
+      scratch.folder / testing::UnitTest::GetInstance()->current_test_info()->name();
   fs::create_directories(folder);
   return folder / name;
 }

@@ -1,0 +1,133 @@
+#!/usr/bin/env python3
+"""Compares shoal with the thesis author's logged Red Sea trials, side by side.
+
+    tests/agreement.py [--shoal PROGRAM] [--shared DIR] [--seeds N] [--jobs N] [--assignment]
+
+Runs redsea_square_as_run on the reconstructed current, from the published starts, and prints the
+means over the seeds beside the log. The public data is not part of the repository: it is looked for
+in $SHOAL_SHARED, else in ../shared. With --assignment, the assignment behaviour is compared as a
+function of how old its targets and commands are, instead.
+Exit status 1 if a mean lies outside its bound.
+"""
+
+import argparse
+import concurrent.futures
+import csv
+import json
+import os
+import pathlib
+import subprocess
+import sys
+import tempfile
+
+TOP = pathlib.Path(__file__).resolve().parent.parent
+
+# label of the log: (behaviour, start file, deploy after the current's time zero in s)
+TRIALS = {
+    "BHV2_Pairwise_Neighbour_Ref": ("pairwise_referencing", "pairwise_1.csv", 91.2),
+    "BHV3_Rigid_Neighbour_Reg": ("rigid_registration", "rigid_1.csv", 59.0),
+    "BHV4_Assignment_Registration": ("assignment_registration", "assignment_1.csv", 53.3),
+}
+
+# our metric: (column of the log, bound, whether the bound is relative)
+METRICS = {
+    "thrust_time_ratio_mean": ("time_thrust_ratio_mean", 0.015, False),
+    "thrust_distance_ratio_mean": ("dist_thrust_ratio_of_means", 0.03, False),
+    "centroid_displacement_m": ("centroid_displacement_m", 0.10, True),
+    "quality_settled_m": ("Q_mean_last3h_m", 0.20, True),
+    "energy_mean_wh": ("E_total_mean_Wh", 0.15, True),
+    "efficiency_m_per_wh": ("m_per_Wh_path", 0.15, True),
+}
+WIDER = {"pairwise_referencing": 0.20, "assignment_registration": 0.20}
+ENERGIES = ("energy_mean_wh", "efficiency_m_per_wh")
+
+
+def run(options, trial, seed, settings):
+    behaviour, start, offset = TRIALS[trial]
+    data = options.shared / "data"
+    with tempfile.TemporaryDirectory() as out:
+        command = [str(options.shoal), "run", "redsea_square_as_run", "--seed", str(seed)]
+        for key, value in {
+            "behaviour.kind": behaviour,
+            "current.netcdf.file": data / "redsea_current.nc",
+            "current.netcdf.time_offset_s": offset,
+            "swarm.start.kind": "file",
+            "swarm.start.file.path": data / "starts" / start,
+            "trial.record_every_s": 0,
+            **settings,
+        }.items():
+            command += ["--set", f"{key}={value}"]
+        subprocess.run(command + ["--out", out], check=True, stdout=subprocess.DEVNULL)
+        return json.loads((pathlib.Path(out) / "summary.json").read_text())["metrics"]
+
+
+def means(options, trial, settings):
+    with concurrent.futures.ThreadPoolExecutor(options.jobs) as pool:
+        seeds = range(1, options.seeds + 1)
+        runs = list(pool.map(lambda seed: run(options, trial, seed, settings), seeds))
+    return {name: sum(r[name] for r in runs) / len(runs) for name in METRICS}
+
+
+def compare(options, log, trial, settings):
+    """Prints a table; returns how many means lie outside their bounds."""
+    behaviour = TRIALS[trial][0]
+    ours = means(options, trial, settings)
+    outside = 0
+    print(f"\n{behaviour}: mean of {options.seeds} seeds beside the log {trial}")
+    print(f"  {'metric':<28}{'shoal':>10}{'log':>10}{'difference':>12}{'bound':>9}")
+    for name, (column, bound, relative) in METRICS.items():
+        if name in ENERGIES:
+            bound = WIDER.get(behaviour, bound)
+        theirs = float(log[trial][column])
+        difference = ours[name] / theirs - 1 if relative else ours[name] - theirs
+        shown, limit = (f"{difference:+.1%}", f"{bound:.0%}") if relative else (
+            f"{difference:+.4f}", f"{bound:.3f}")
+        verdict = "" if abs(difference) <= bound else "  outside"
+        outside += verdict != ""
+        print(f"  {name:<28}{ours[name]:>10.4g}{theirs:>10.4g}{shown:>12}{limit:>9}{verdict}")
+    return outside
+
+
+def assignment_by_age(options, log):
+    """How the assignment behaviour depends on the instants at which it is refreshed."""
+    trial = "BHV4_Assignment_Registration"
+    columns = ["thrust_time_ratio_mean", "thrust_distance_ratio_mean", "energy_mean_wh",
+               "efficiency_m_per_wh", "quality_settled_m", "centroid_displacement_m"]
+    print(f"\nassignment_registration, mean of {options.seeds} seeds, by the period at which targets "
+          "and commands are renewed")
+    print(f"  {'period_s':<10}" + "".join(f"{c:>28}" for c in columns))
+    cases = [("ping", {"planner.update": "ping"})]
+    cases += [(str(p), {"planner.period_s": p, "guidance.period_s": p}) for p in options.periods]
+    for label, settings in cases:
+        ours = means(options, trial, settings)
+        print(f"  {label:<10}" + "".join(f"{ours[c]:>28.4g}" for c in columns), flush=True)
+    theirs = [float(log[trial][METRICS[c][0]]) for c in columns]
+    print(f"  {'log':<10}" + "".join(f"{x:>28.4g}" for x in theirs))
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("--shoal", type=pathlib.Path, default=TOP / "build/release/bin/shoal")
+    parser.add_argument("--shared", type=pathlib.Path,
+                        default=os.environ.get("SHOAL_SHARED", TOP.parent / "shared"))
+    parser.add_argument("--seeds", type=int, default=20)
+    parser.add_argument("--jobs", type=int, default=os.cpu_count())
+    parser.add_argument("--assignment", action="store_true")
+    parser.add_argument("--periods", type=float, nargs="+", default=[5, 10, 15, 20, 25])
+    options = parser.parse_args()
+    options.shared = pathlib.Path(options.shared)
+    trials = options.shared / "data" / "redsea_trials.csv"
+    if not trials.exists():
+        print(f"skipped: {trials} is not here; set SHOAL_SHARED to the folder of public data")
+        return 0
+    with trials.open() as file:
+        log = {row["behaviour"]: row for row in csv.DictReader(file)}
+    if options.assignment:
+        assignment_by_age(options, log)
+        return 0
+    outside = sum(compare(options, log, trial, {}) for trial in list(TRIALS)[:2])
+    return 1 if outside else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

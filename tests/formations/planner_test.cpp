@@ -1,0 +1,163 @@
+#include "shoal/formations/planner.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+#include "tests/formations/swarm.hpp"
+#include "tests/support/allocation_count.hpp"
+
+namespace shoal::formations {
+namespace {
+
+using namespace tests;
+
+Ping ping_of(const Neighbour& n, double time_s) {
+  return {.time_s = time_s,
+          .range_m = n.position.norm(),
+          .bearing_rad = std::atan2(n.position.y(), n.position.x()),
+          .slot = n.slot};
+}
+
+/// A planner of vehicle v0, and what its own frame's origin stands for.
+struct Engineer {
+  std::shared_ptr<const Plan> plan;
+  Planner planner;
+
+  explicit Engineer(const Plan& geometry, const char* kind = "rigid_registration")
+      : plan(std::make_shared<const Plan>(geometry)),
+        planner(plan, std::shared_ptr<const Behaviour>(behaviour(kind)), "v0") {}
+
+  void hear(const Neighbours& all, double time_s, const Vector2d& own) {
+    for (const Neighbour& n : all) planner.receive(ping_of(n, time_s), own);
+  }
+};
+
+template <class Act>
+std::string complaint(Act act) {
+  try {
+    act();
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+const Plan cross = plan_of({{0, 0}, {100, 0}, {0, 100}, {-100, 0}, {0, -100}});
+const Vector2d start(5000, -2000);
+
+TEST(Planner, TurnsPingsIntoATarget) {
+  Engineer engineer(cross);
+  engineer.hear(heard(cross, 0, {}, {-20, 0}), 0.0, start);
+  const Target& target = engineer.planner.plan(0.5, start);
+  EXPECT_EQ(target.reason, Reason::placed);
+  EXPECT_LT((target.position - Vector2d(16, 0)).norm(), 1e-9);  // 4 of 5 weights
+  EXPECT_EQ(&target, &engineer.planner.last_target());
+}
+
+TEST(Planner, RefersTheTargetToWhereTheVehicleIsNow) {
+  Engineer engineer(cross);
+  engineer.hear(heard(cross, 0, {}, {-20, 0}), 0.0, start);
+  engineer.planner.plan(0.5, start);
+  EXPECT_LT((engineer.planner.target_from(start) - Vector2d(16, 0)).norm(), 1e-9);
+  EXPECT_LT((engineer.planner.target_from(start + Vector2d(16, 3)) - Vector2d(0, -3)).norm(), 1e-9);
+}
+
+TEST(Planner, PlansFromWhereTheVehicleIsNow) {
+  Engineer engineer(cross);
+  engineer.hear(heard(cross, 0, {}, {-20, 0}), 0.0, start);
+  // Having come 10 m of the way, 10 m are left: 4 of 5 weights see them.
+  const Target target = engineer.planner.plan(10.0, start + Vector2d(10, 0));
+  EXPECT_LT((target.position - Vector2d(8, 0)).norm(), 1e-9);
+}
+
+TEST(Planner, HoldsBeforeItHearsAnybodyAndAfterAllHaveGone) {
+  Engineer engineer(cross);
+  EXPECT_EQ(engineer.planner.last_target().reason, Reason::no_neighbour);
+  EXPECT_EQ(engineer.planner.target_from(start), Vector2d(0, 0));
+  engineer.hear(heard(cross, 0, {}, {-20, 0}), 0.0, start);
+  EXPECT_FALSE(engineer.planner.plan(0.0, start).held());
+  EXPECT_EQ(engineer.planner.plan(1000.0, start).reason, Reason::no_neighbour);
+  // Held: drift freely wherever the current takes the vehicle.
+  EXPECT_EQ(engineer.planner.target_from(start + Vector2d(50, 0)), Vector2d(0, 0));
+}
+
+TEST(Planner, KnowsItsSlotByName) {
+  const auto plan = std::make_shared<const Plan>(std::vector<std::string>{"ann", "bea"},
+                                                 std::vector<Vector2d>{{0, 0}, {9, 0}});
+  const std::shared_ptr<const Behaviour> rigid = behaviour("rigid_registration");
+  EXPECT_EQ(Planner(plan, rigid, "bea").own_slot(), 1);
+  EXPECT_EQ(complaint([&] { Planner(plan, rigid, "cid"); }),
+            "the plan has no slot named \"cid\"; it has ann, bea");
+}
+
+TEST(Planner, RefusesPingsThatCannotBe) {
+  Engineer engineer(cross);
+  const auto refusal = [&](Ping ping, const Vector2d& own = Vector2d::Zero()) {
+    return complaint([&] { engineer.planner.receive(ping, own); });
+  };
+  constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+  const std::string numbers =
+      "a ping needs finite numbers and a range of at least 0 m; drop this one";
+  EXPECT_EQ(refusal({.time_s = nan, .slot = 1}), numbers);
+  EXPECT_EQ(refusal({.range_m = nan, .slot = 1}), numbers);
+  EXPECT_EQ(refusal({.range_m = -0.1, .slot = 1}), numbers);
+  EXPECT_EQ(refusal({.bearing_rad = HUGE_VAL, .slot = 1}), numbers);
+  EXPECT_EQ(refusal({.elevation_rad = nan, .slot = 1}), numbers);
+  EXPECT_EQ(refusal({.slot = 1}, {0, nan}), numbers);
+  EXPECT_EQ(refusal({.slot = 5}), "a ping says slot 5, but the plan has slots 0 to 4");
+  EXPECT_EQ(refusal({.slot = -2}), "a ping says slot -2, but the plan has slots 0 to 4");
+  EXPECT_EQ(refusal({.slot = 0}), "a ping carries the own id v0; drop echoes of the own pings");
+  EXPECT_EQ(refusal({.slot = 1}), "");
+  EXPECT_EQ(refusal({.slot = anonymous}), "");
+}
+
+TEST(Planner, ForgetsNothingOfARefusedPing) {
+  Engineer engineer(cross);
+  engineer.hear(heard(cross, 0, {}, {-20, 0}), 0.0, start);
+  const Vector2d before = engineer.planner.plan(1.0, start).position;
+  EXPECT_THROW(engineer.planner.receive({.time_s = 1.0, .range_m = -1.0, .slot = 1}, start),
+               InputError);
+  EXPECT_EQ(engineer.planner.plan(1.0, start).position, before);
+}
+
+// Twelve neighbours of a lattice, a ping of each every 30 s.
+class PlannerOf : public testing::TestWithParam<std::string> {};
+
+TEST_P(PlannerOf, AllocatesNothingInTheSteadyState) {
+  const Plan lattice = square_lattice(5, 4, 300.0);
+  Engineer engineer(lattice, GetParam().c_str());
+  Neighbours seen = heard(lattice, 0);
+  seen.resize(12);
+
+  std::size_t warm = 0;
+  for (int round = 0; round < 38; ++round) {
+    if (round == 8) warm = shoal::tests::allocations();  // the filters are full
+    const double time_s = 30.0 * round;
+    const Vector2d own = start + round * Vector2d(3, -2);
+    Neighbours moved_on = seen;
+    for (Neighbour& n : moved_on) n.position -= 0.1 * (own - start);
+    engineer.hear(moved_on, time_s, own);
+    const Target& target = engineer.planner.plan(time_s + 0.5, own);
+    EXPECT_EQ(target.reason, Reason::placed);
+  }
+  EXPECT_EQ(shoal::tests::allocations() - warm, 0u);
+}
+
+INSTANTIATE_TEST_SUITE_P(Behaviours, PlannerOf,
+                         testing::Values("rigid_registration", "pairwise_referencing",
+                                         "assignment_registration"),
+                         [](const auto& tested) { return tested.param; });
+
+TEST(AllocationCount, SeesAllocationsOfLibraries) {
+  const std::size_t before = shoal::tests::allocations();
+  const Plan plan = cross;  // copied by libshoal_formations or here: vectors, in any case
+  EXPECT_GT(shoal::tests::allocations(), before);
+  const std::size_t between = shoal::tests::allocations();
+  const Plan centred = plan.centred();  // a function of the library
+  EXPECT_GT(shoal::tests::allocations(), between);
+}
+
+}  // namespace
+}  // namespace shoal::formations

@@ -1,0 +1,13 @@
+#pragma once
+
+#include <cstddef>
+
+namespace shoal::tests {
+
+/// How often this thread has asked operator new for memory so far.
+///
+/// Programs that link allocation_count.cpp have their operator new and delete replaced, also for
+/// the shared libraries that they load.
+std::size_t allocations() noexcept;
+
+}  // namespace shoal::tests
