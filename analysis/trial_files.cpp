@@ -1,28 +1,15 @@
-#include <unistd.h>
-
-#include <fstream>
 #include <nlohmann/json.hpp>
 
 #include "shoal/analysis/trial.hpp"
+#include "shoal/core/whole_file.hpp"
 
 namespace shoal::analysis {
 namespace {
 
 namespace fs = std::filesystem;
 
-// Under a hidden name until it is complete, so that nothing half-written carries the final one.
 void write_text(const fs::path& file, const std::string& text) {
-  const fs::path partial = file.parent_path() / ("." + file.filename().string() + ".partial");
-  std::ofstream out(partial, std::ios::binary);
-  out << text;
-  out.close();
-  std::error_code failed;
-  if (out) fs::rename(partial, file, failed);
-  if (!out || failed) {
-    std::error_code ignored;
-    fs::remove(partial, ignored);
-    throw SystemError("cannot write " + file.string() + "; check free space and permissions");
-  }
+  write_whole_file(file, text);
 }
 
 }  // namespace
@@ -30,14 +17,17 @@ void write_text(const fs::path& file, const std::string& text) {
 void require_writable(const fs::path& folder) {
   std::error_code failed;
   fs::create_directories(folder, failed);
-  if (!failed && !fs::is_directory(folder)) failed = std::make_error_code(std::errc::not_a_directory);
-  if (!failed && ::access(folder.c_str(), W_OK | X_OK) != 0) {
-    failed = std::error_code(errno, std::generic_category());
+  if (!failed && !fs::is_directory(folder)) {
+    failed = std::make_error_code(std::errc::not_a_directory);
   }
   if (failed) {
     throw SystemError("cannot write into " + folder.string() + ": " + failed.message() +
                       "; choose another folder with --out");
   }
+  // Permissions do not tell all: a file system may be read-only, full, or none that holds files.
+  const fs::path probe = folder / ".shoal";
+  write_text(probe, "can files be written here?\n");
+  fs::remove(probe, failed);
 }
 
 std::string summary_json(const Trial& trial, const std::string& name) {
@@ -59,6 +49,11 @@ std::string summary_json(const Trial& trial, const std::string& name) {
 
 void write_trial(const Trial& trial, const std::string& name, const fs::path& folder) {
   require_writable(folder);
+  // What stands there of an earlier trial would contradict this one, if this one is cut short.
+  for (const char* earlier : {"summary.json", "run.nc"}) {
+    std::error_code ignored;
+    fs::remove(folder / earlier, ignored);
+  }
   write_text(folder / "scenario.toml", to_toml(scenarios::resolved_scenario(trial.scenario)));
   if (trial.record) {
     trial.record->write(folder / "run.nc", *trial.world, trial.results.series,
@@ -66,9 +61,6 @@ void write_trial(const Trial& trial, const std::string& name, const fs::path& fo
                          {"behaviour", trial.scenario.behaviour.kind()},
                          {"seed", std::to_string(trial.scenario.trial.seed)},
                          {"source", "shoal " SHOAL_VERSION}});
-  } else {
-    std::error_code ignored;
-    fs::remove(folder / "run.nc", ignored);  // of an earlier run: it would contradict the summary
   }
   write_text(folder / "summary.json", summary_json(trial, name));
 }

@@ -9,10 +9,17 @@ namespace shoal {
 std::string Range::text() const {
   const bool below = std::isfinite(low);
   const bool above = std::isfinite(high);
-  if (below && above) return "from " + shortest(low) + " to " + shortest(high);
+  if (below && above && low_included) return "from " + shortest(low) + " to " + shortest(high);
+  if (below && above) return "above " + shortest(low) + " and at most " + shortest(high);
   if (below) return (low_included ? "at least " : "above ") + shortest(low);
   if (above) return "at most " + shortest(high);
   return "any finite number";
+}
+
+std::string Option::range_text() const {
+  if (unit.empty()) return range.text();
+  const bool unbounded = !std::isfinite(range.low) && !std::isfinite(range.high);
+  return range.text() + (unbounded ? ", in " : " ") + unit;
 }
 
 const Option* Schema::find(std::string_view name) const {
@@ -57,15 +64,17 @@ namespace detail {
 
 void refuse_type(const Option& option, const Setting& value, const std::string& key) {
   const std::string unit = option.unit.empty() ? "" : " in " + option.unit;
-  throw InputError(value.origin, key + " is " + std::string(value.type_name()) + "; it takes " +
+  const auto* text = std::get_if<std::string>(&value.value);
+  throw InputError(value.origin, key + " is " + std::string(value.type_name()) +
+                                     (text ? " (\"" + *text + "\")" : "") + "; it takes " +
                                      option.type + unit);
 }
 
 void require_range(const Option& option, double x, const Setting& value, const std::string& key) {
   if (std::isfinite(x) && option.range.contains(x)) return;
-  const std::string unit = option.unit.empty() ? "" : " " + option.unit;
-  throw InputError(value.origin,
-                   key + " is " + shortest(x) + "; it takes " + option.range.text() + unit);
+  const auto* integer = std::get_if<std::int64_t>(&value.value);
+  throw InputError(value.origin, key + " is " + (integer ? std::to_string(*integer) : shortest(x)) +
+                                     "; it takes " + option.range_text());
 }
 
 double as_number(const Option& option, const Setting& value, const std::string& key) {

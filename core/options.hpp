@@ -58,6 +58,9 @@ struct Option {
   const RegistryBase* choice = nullptr;  ///< set for a member of a family
   std::function<void(void* object, const Setting&, const std::string& key)> read;
   std::function<Setting(const void* object)> write;
+
+  /// The range with its unit: `from 0 to 180 deg`.
+  std::string range_text() const;
 };
 
 /// All options of one struct, and their defaults (those of a value-initialised struct).

@@ -91,6 +91,18 @@ Setting* Setting::find(std::string_view name) {
   return const_cast<Setting*>(static_cast<const Setting*>(this)->find(name));
 }
 
+const Setting* Setting::find_path(std::string_view dotted_path) const {
+  const Setting* place = this;
+  for (const std::string_view part : split(dotted_path, '.')) {
+    if (place) place = place->find(part);
+  }
+  return place;
+}
+
+Setting* Setting::find_path(std::string_view dotted_path) {
+  return const_cast<Setting*>(static_cast<const Setting*>(this)->find_path(dotted_path));
+}
+
 Setting& Setting::at_or_new(std::string_view name) {
   if (Setting* found = find(name)) return *found;
   Setting fresh;

@@ -29,6 +29,10 @@ struct Setting {
   const Setting* find(std::string_view name) const;
   Setting* find(std::string_view name);
 
+  /// What stands at a dotted path (`behaviour.kind`), or nullptr.
+  const Setting* find_path(std::string_view dotted_path) const;
+  Setting* find_path(std::string_view dotted_path);
+
   /// The entry of a table, made (with this origin) if there is none yet.
   Setting& at_or_new(std::string_view name);
 

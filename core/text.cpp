@@ -33,6 +33,9 @@ std::string suggestion(std::string_view wrong, std::span<const std::string> know
       known, {}, [wrong](const std::string& name) { return edit_distance(wrong, name); });
   const std::size_t tolerated = 1 + std::max(wrong.size(), closest->size()) / 3;
   if (edit_distance(wrong, *closest) <= tolerated) return "; did you mean \"" + *closest + "\"?";
+  const auto begun = std::ranges::find_if(
+      known, [wrong](const std::string& name) { return name.starts_with(wrong); });
+  if (wrong.size() >= 3 && begun != known.end()) return "; did you mean \"" + *begun + "\"?";
   return "; known are " + listed(known);
 }
 

@@ -45,7 +45,7 @@ std::optional<std::string> DriftGuidance::complaint() const {
   return "the radii must grow: capture_radius_m <= slip_radius_m <= drifting_radius_m";
 }
 
-Command DriftGuidance::command(const Eigen::Vector2d& relative_target, State& state) const {
+Command DriftGuidance::steer(const Eigen::Vector2d& relative_target, State& state) const {
   const Eigen::Vector2d target = smoothed(
       relative_target, static_cast<std::size_t>(targets_filter_size), state.recent_targets);
   const double distance = target.norm();

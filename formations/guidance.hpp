@@ -43,7 +43,15 @@ struct DriftGuidance {
   };
 
   /// The command for a target given relative to the vehicle (metres, own frame).
-  Command command(const Eigen::Vector2d& relative_target, State& state) const;
+  Command command(const Eigen::Vector2d& relative_target, State& state) const {
+    // Most of the time, most vehicles drift near their targets.
+    const bool near = relative_target.squaredNorm() <= drifting_radius_m * drifting_radius_m;
+    if (state.drifting && near && targets_filter_size == 1) return {};
+    return steer(relative_target, state);
+  }
+
+ private:
+  Command steer(const Eigen::Vector2d& relative_target, State& state) const;
 };
 
 }  // namespace shoal::formations

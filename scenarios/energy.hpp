@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cmath>
+
 #include "shoal/core/options.hpp"
 
 namespace shoal::scenarios {
@@ -24,16 +26,25 @@ struct Energy {
   double battery_wh = 520.0;
 
   static void declare(Options<Energy>& o);
+};
 
-  /// Electrical power (W) at a speed through water (m/s), with heading thrust in [-1, 1].
-  double propulsion_w(double speed_m_s, double heading_thrust) const {
-    if (heading_thrust > turning_threshold || heading_thrust < -turning_threshold) {
-      return turning_power_w;
-    }
-    const double ratio = (speed_m_s < 0.0 ? -speed_m_s : speed_m_s) / power_speed_m_s;
-    if (law == Law::cubic) return power_w * ratio * ratio * ratio;
-    return ratio > 0.0 ? power_w : 0.0;
+/// The electrical power that thrust and turning draw.
+class PropulsionPower {
+ public:
+  explicit PropulsionPower(const Energy& energy)
+      : energy_(energy), per_speed_(1.0 / energy.power_speed_m_s) {}
+
+  /// Watts at a speed through water (m/s), with heading thrust in [-1, 1].
+  double operator()(double speed_m_s, double heading_thrust) const {
+    if (std::abs(heading_thrust) > energy_.turning_threshold) return energy_.turning_power_w;
+    const double ratio = std::abs(speed_m_s) * per_speed_;
+    if (energy_.law == Energy::Law::cubic) return energy_.power_w * ratio * ratio * ratio;
+    return ratio > 0.0 ? energy_.power_w : 0.0;
   }
+
+ private:
+  Energy energy_;
+  double per_speed_;
 };
 
 inline constexpr double joules_per_wh = 3600.0;

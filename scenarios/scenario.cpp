@@ -3,9 +3,16 @@
 #include <cmath>
 
 #include "shoal/core/text.hpp"
+#include "shoal/scenarios/currents/netcdf_time.hpp"
 #include "shoal/scenarios/library_path.hpp"
 
 namespace shoal::scenarios {
+namespace {
+
+// Beyond that, doubles do not hold every tick.
+constexpr double most_ticks = 1e15;
+
+}  // namespace
 
 void TrialOptions::declare(Options<TrialOptions>& o) {
   using T = TrialOptions;
@@ -79,6 +86,10 @@ void Scenario::declare(Options<Scenario>& o) {
 std::int64_t ticks_of(double period_s, double tick_s, const std::string& key) {
   const double ratio = period_s / tick_s;
   const double whole = std::round(ratio);
+  if (whole > most_ticks) {
+    throw InputError(key + " is " + shortest(period_s) + " s; it must be at most " +
+                     shortest(most_ticks * tick_s) + " s");
+  }
   if (whole < 1.0 || std::abs(ratio - whole) > 1e-9 * whole) {
     throw InputError(key + " is " + shortest(period_s) +
                      " s; it must be a multiple of trial.tick_s = " + shortest(tick_s) + " s");
@@ -88,47 +99,99 @@ std::int64_t ticks_of(double period_s, double tick_s, const std::string& key) {
 
 namespace {
 
-void require_ticks(const Scenario& s) {
-  const double tick = s.trial.tick_s;
-  ticks_of(s.trial.duration_s, tick, "trial.duration_s");
-  ticks_of(s.guidance.period_s, tick, "guidance.period_s");
-  if (s.planner.update == PlannerOptions::Update::tick) {
-    ticks_of(s.planner.period_s, tick, "planner.period_s");
+/// Checks of values that are each in range but must also go together.
+class CrossChecks {
+ public:
+  CrossChecks(const Scenario& scenario, const Setting& root) : s_(scenario), root_(root) {}
+
+  void run() const {
+    times();
+    hearing();
   }
-  if (s.trial.record_every_s > 0.0) ticks_of(s.trial.record_every_s, tick, "trial.record_every_s");
-  if (s.quality.every_s > 0.0) ticks_of(s.quality.every_s, tick, "quality.every_s");
-  if (s.faults.node_loss.count > 0) {
-    ticks_of(s.faults.node_loss.every_s, tick, "faults.node_loss.every_s");
+
+ private:
+  using Keys = std::initializer_list<std::string>;
+
+  /// Points at the first of these keys that somebody wrote.
+  [[noreturn]] void refuse(Keys keys, const std::string& why) const {
+    for (const std::string& key : keys) {
+      if (const Setting* written = root_.find_path(key)) throw InputError(written->origin, why);
+    }
+    throw InputError(root_.origin, why);
   }
-  if (s.ping.period_s < tick) {
-    throw InputError("ping.period_s is " + shortest(s.ping.period_s) +
-                     " s; it must be at least trial.tick_s = " + shortest(tick) + " s");
+
+  void whole_ticks(double period_s, const std::string& key) const {
+    try {
+      ticks_of(period_s, s_.trial.tick_s, key);
+    } catch (const InputError& error) {
+      refuse({key, "trial.tick_s"}, error.what());
+    }
   }
-  if (const auto refused = s.swarm.vehicle.make()->refuses_tick(tick)) throw InputError(*refused);
-}
+
+  void countable_ticks(double time_s, const std::string& key) const {
+    const double most_s = most_ticks * s_.trial.tick_s;
+    if (time_s <= most_s) return;
+    refuse({key},
+           key + " is " + shortest(time_s) + " s; it must be at most " + shortest(most_s) + " s");
+  }
+
+  void times() const {
+    const double tick = s_.trial.tick_s;
+    whole_ticks(s_.trial.duration_s, "trial.duration_s");
+    whole_ticks(s_.guidance.period_s, "guidance.period_s");
+    if (s_.planner.update == PlannerOptions::Update::tick) {
+      whole_ticks(s_.planner.period_s, "planner.period_s");
+    }
+    if (s_.trial.record_every_s > 0.0) whole_ticks(s_.trial.record_every_s, "trial.record_every_s");
+    if (s_.quality.every_s > 0.0) whole_ticks(s_.quality.every_s, "quality.every_s");
+    if (s_.faults.node_loss.count > 0) {
+      whole_ticks(s_.faults.node_loss.every_s, "faults.node_loss.every_s");
+    }
+    countable_ticks(s_.ping.period_s, "ping.period_s");
+    countable_ticks(s_.ping.first_s, "ping.first_s");
+    countable_ticks(s_.ping_filter.contact_timeout_s, "ping_filter.contact_timeout_s");
+    if (s_.ping.period_s < tick) {
+      refuse({"ping.period_s", "trial.tick_s"},
+             "ping.period_s is " + shortest(s_.ping.period_s) +
+                 " s; it must be at least trial.tick_s = " + shortest(tick) + " s");
+    }
+    if (const auto why = s_.swarm.vehicle.make()->refuses_tick(tick)) {
+      refuse({"swarm.vehicle." + s_.swarm.vehicle.kind(), "trial.tick_s"}, *why);
+    }
+    try {
+      parse_instant(s_.trial.start, Calendar::standard);
+    } catch (const InputError& error) {
+      refuse({"trial.start"}, "trial.start: " + std::string(error.what()));
+    }
+  }
+
+  void hearing() const {
+    if (s_.ping.identified) return;
+    if (s_.behaviour.make()->needs_ids()) {
+      refuse({"ping.identified"}, "behaviour " + s_.behaviour.kind() +
+                                      " needs to know who pings; set ping.identified = true");
+    }
+    if (s_.ping_filter.rest_s >= s_.ping.period_s) {
+      refuse({"ping_filter.rest_s", "ping.period_s"},
+             "ping_filter.rest_s must be shorter than ping.period_s, or every ping without id "
+             "would begin a new track");
+    }
+  }
+
+  const Scenario& s_;
+  const Setting& root_;
+};
 
 }  // namespace
 
 Scenario read_scenario(const Setting& root) {
+  if (root.table().empty() && !root.origin.file.empty()) {
+    throw InputError(root.origin,
+                     "the scenario says nothing; it takes tables such as [plan] and [behaviour]");
+  }
   Scenario scenario;
   read(scenario, root, "");
-  try {
-    require_ticks(scenario);
-    const auto behaviour = scenario.behaviour.make();
-    if (behaviour->needs_ids() && !scenario.ping.identified) {
-      throw InputError("behaviour " + scenario.behaviour.kind() +
-                       " needs to know who pings; set ping.identified = true");
-    }
-    if (!scenario.ping.identified && scenario.ping_filter.rest_s >= scenario.ping.period_s) {
-      throw InputError(
-          "ping_filter.rest_s must be shorter than ping.period_s, or every ping "
-          "without id would begin a new track");
-    }
-  } catch (const InputError& error) {
-    const std::string message = error.what();
-    const std::string prefix = Origin{root.origin.file, 0}.prefix();
-    throw InputError(message.starts_with(prefix) ? message : prefix + message);
-  }
+  CrossChecks(scenario, root).run();
   return scenario;
 }
 
@@ -137,9 +200,8 @@ std::filesystem::path find_scenario(const std::string& name_or_path) {
   if (fs::exists(name_or_path)) return name_or_path;
   const fs::path in_library = library_path() / (name_or_path + ".toml");
   if (fs::exists(in_library)) return in_library;
-  throw InputError(name_or_path +
-                   ": there is no such file, and no scenario of that name in the "
-                   "library" +
+  throw InputError("there is no file \"" + name_or_path +
+                   "\", and no scenario of that name in the library" +
                    suggestion(name_or_path, library_scenarios()));
 }
 

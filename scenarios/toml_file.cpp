@@ -88,14 +88,6 @@ void overlay(Setting& place, Setting value) {
   }
 }
 
-Setting* found(Setting& root, std::string_view dotted_path) {
-  Setting* place = &root;
-  for (const std::string_view part : split(dotted_path, '.')) {
-    if (place) place = place->find(part);
-  }
-  return place;
-}
-
 }  // namespace
 
 Setting read_toml(const std::filesystem::path& file) {
@@ -132,7 +124,7 @@ void apply_set(Setting& root, const std::string& assignment) {
 
   std::optional<Setting> value = toml_value(text, origin);
   if (!value) value = Setting{text, origin};
-  Setting* known = found(root, key);
+  Setting* known = root.find_path(key);
   if (known && known->is_table() && value->is_table()) {
     overlay(*known, std::move(*value));
   } else {

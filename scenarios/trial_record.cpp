@@ -1,12 +1,17 @@
 #include "shoal/scenarios/trial_record.hpp"
 
 #include <netcdf.h>
+#include <netcdf_mem.h>
 
 #include <cmath>
+#include <cstdlib>
 #include <limits>
+#include <memory>
 
 #include "shoal/core/angles.hpp"
+#include "shoal/core/whole_file.hpp"
 #include "shoal/scenarios/currents/netcdf_file.hpp"
+#include "shoal/scenarios/currents/netcdf_time.hpp"
 
 namespace shoal::scenarios {
 namespace {
@@ -63,26 +68,23 @@ const Variable variables[] = {
 
 constexpr float missing = std::numeric_limits<float>::quiet_NaN();
 
-/// An open netCDF file that is removed again unless it was finished.
+/// A netCDF file made in memory and written as a whole: HDF5 does not survive a full disk.
 class File {
  public:
-  explicit File(const std::filesystem::path& path)
-      : path_(path), partial_(path.parent_path() / ("." + path.filename().string() + ".partial")) {
-    check(nc_create(partial_.c_str(), NC_NETCDF4 | NC_CLOBBER, &id_));
+  explicit File(const std::filesystem::path& path) : path_(path) {
+    constexpr std::size_t initial_bytes = 1 << 20;
+    check(nc_create_mem(path_.c_str(), NC_NETCDF4, initial_bytes, &id_));
     open_ = true;
   }
   File(const File&) = delete;
   File& operator=(const File&) = delete;
   ~File() {
     if (open_) nc_abort(id_);
-    std::error_code ignored;
-    if (!finished_) std::filesystem::remove(partial_, ignored);
   }
 
   void check(int code) const {
     if (code == NC_NOERR) return;
-    throw SystemError("cannot write " + path_.string() + ": " + nc_strerror(code) +
-                      "; check free space and permissions");
+    throw SystemError("cannot make " + path_.string() + ": " + nc_strerror(code));
   }
 
   void text(int variable, const char* name, const std::string& value) const {
@@ -107,21 +109,18 @@ class File {
 
   void finish() {
     open_ = false;
-    check(nc_close(id_));
-    std::error_code failed;
-    std::filesystem::rename(partial_, path_, failed);
-    if (failed) {
-      throw SystemError("cannot write " + path_.string() + ": " + failed.message());
-    }
-    finished_ = true;
+    NC_memio content{};
+    check(nc_close_memio(id_, &content));
+    const std::unique_ptr<void, decltype(&std::free)> owned(content.memory, &std::free);
+    write_whole_file(path_, {static_cast<const char*>(content.memory), content.size});
   }
 
   int id() const { return id_; }
 
  private:
-  std::filesystem::path path_, partial_;
+  std::filesystem::path path_;
   int id_ = 0;
-  bool open_ = false, finished_ = false;
+  bool open_ = false;
 };
 
 void write_names(const File& file, int variable, const World& world, std::size_t width) {
@@ -164,13 +163,16 @@ void TrialRecord::write(const std::filesystem::path& path, const World& world,
 
   std::size_t width = 1;
   for (const std::string& name : world.plan().names()) width = std::max(width, name.size());
-  const std::string since = "seconds since " + world.scenario().trial.start;
+  const std::string since =
+      "seconds since " +
+      iso_text(parse_instant(world.scenario().trial.start, Calendar::standard), Calendar::standard);
   const int vehicle_dim = file.dimension("vehicle", world.size());
   const int width_dim = file.dimension("name_length", width);
   const int time_dim = file.dimension("time", time_s_.size());
 
   const int vehicle = file.variable("vehicle", NC_CHAR, {vehicle_dim, width_dim}, "", "vehicle");
   file.text(vehicle, "cf_role", "trajectory_id");
+  file.text(vehicle, "_Encoding", "utf-8");
   const auto time_axis = [&](const std::string& name, int dimension) {
     const int axis = file.variable(name, NC_DOUBLE, {dimension}, since, "time since mission start");
     file.text(axis, "standard_name", "time");

@@ -1,6 +1,7 @@
 #include "shoal/scenarios/world.hpp"
 
 #include <tbb/blocked_range.h>
+#include <tbb/global_control.h>
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 
@@ -82,20 +83,25 @@ double World::comms_wh(std::size_t i) const {
 }
 
 void World::run(std::span<Observer* const> observers) {
+  std::vector<std::int64_t> looks;  // ticks between two looks of each observer
+  for (const Observer* o : observers) {
+    looks.push_back(ticks_of(o->every_s(), scenario_.trial.tick_s, "an observer's interval"));
+  }
+  // As many threads as asked for, also on a machine with fewer cores.
+  const tbb::global_control allowed(tbb::global_control::max_allowed_parallelism,
+                                    static_cast<std::size_t>(threads_));
   tbb::task_arena arena(threads_);
   const std::size_t blocks = (size() + block_size - 1) / block_size;
-  const auto ticks = [&](const Observer* o) {
-    return ticks_of(o->every_s(), scenario_.trial.tick_s, "an observer's interval");
-  };
+
   while (true) {
     lose_vehicles();
     send_pings();
-    for (Observer* observer : observers) {
-      if (tick_ % ticks(observer) == 0) observer->observe(*this);
+    for (std::size_t k = 0; k < looks.size(); ++k) {
+      if (tick_ % looks[k] == 0) observers[k]->observe(*this);
     }
     if (tick_ == end_tick_) return;
 
-    const std::int64_t until = next_event(observers);
+    const std::int64_t until = next_event(looks);
     const auto run_blocks = [&](std::size_t begin, std::size_t end) {
       for (std::size_t b = begin; b < end; ++b) {
         run_block(b * block_size, std::min(size(), (b + 1) * block_size), until);
@@ -113,12 +119,10 @@ void World::run(std::span<Observer* const> observers) {
   }
 }
 
-std::int64_t World::next_event(std::span<Observer* const> observers) const {
+std::int64_t World::next_event(std::span<const std::int64_t> looks) const {
   const auto following = [this](std::int64_t ticks) { return (tick_ / ticks + 1) * ticks; };
   std::int64_t next = end_tick_;
-  for (const Observer* o : observers) {
-    next = std::min(next, following(ticks_of(o->every_s(), scenario_.trial.tick_s, "")));
-  }
+  for (const std::int64_t ticks : looks) next = std::min(next, following(ticks));
   if (loss_ticks_ > 0) next = std::min(next, following(loss_ticks_));
   for (std::size_t i = 0; i < size(); ++i) {
     if (!lost(i)) next = std::min(next, next_emission_[i]);

@@ -62,7 +62,7 @@ class World {
   double comms_wh(std::size_t i) const;
 
  private:
-  std::int64_t next_event(std::span<Observer* const> observers) const;
+  std::int64_t next_event(std::span<const std::int64_t> looks) const;
   void lose_vehicles();
   void send_pings();
   void run_block(std::size_t first, std::size_t last, std::int64_t until);

@@ -42,23 +42,27 @@ WIDER = {"pairwise_referencing": 0.20, "assignment_registration": 0.20}
 ENERGIES = ("energy_mean_wh", "efficiency_m_per_wh")
 
 
+def shoal(options, scenario, seed, settings):
+    """The metrics of one run."""
+    with tempfile.TemporaryDirectory() as out:
+        command = [str(options.shoal), "run", scenario, "--seed", str(seed), "--out", out]
+        for key, value in {"trial.record_every_s": 0, **settings}.items():
+            command += ["--set", f"{key}={value}"]
+        subprocess.run(command, check=True, stdout=subprocess.DEVNULL)
+        return json.loads((pathlib.Path(out) / "summary.json").read_text())["metrics"]
+
+
 def run(options, trial, seed, settings):
     behaviour, start, offset = TRIALS[trial]
     data = options.shared / "data"
-    with tempfile.TemporaryDirectory() as out:
-        command = [str(options.shoal), "run", "redsea_square_as_run", "--seed", str(seed)]
-        for key, value in {
-            "behaviour.kind": behaviour,
-            "current.netcdf.file": data / "redsea_current.nc",
-            "current.netcdf.time_offset_s": offset,
-            "swarm.start.kind": "file",
-            "swarm.start.file.path": data / "starts" / start,
-            "trial.record_every_s": 0,
-            **settings,
-        }.items():
-            command += ["--set", f"{key}={value}"]
-        subprocess.run(command + ["--out", out], check=True, stdout=subprocess.DEVNULL)
-        return json.loads((pathlib.Path(out) / "summary.json").read_text())["metrics"]
+    return shoal(options, "redsea_square_as_run", seed, {
+        "behaviour.kind": behaviour,
+        "current.netcdf.file": data / "redsea_current.nc",
+        "current.netcdf.time_offset_s": offset,
+        "swarm.start.kind": "file",
+        "swarm.start.file.path": data / "starts" / start,
+        **settings,
+    })
 
 
 def means(options, trial, settings):
@@ -91,18 +95,66 @@ def compare(options, log, trial, settings):
 def assignment_by_age(options, log):
     """How the assignment behaviour depends on the instants at which it is refreshed."""
     trial = "BHV4_Assignment_Registration"
-    columns = ["thrust_time_ratio_mean", "thrust_distance_ratio_mean", "energy_mean_wh",
-               "efficiency_m_per_wh", "quality_settled_m", "centroid_displacement_m"]
     print(f"\nassignment_registration, mean of {options.seeds} seeds, by the period at which targets "
           "and commands are renewed")
-    print(f"  {'period_s':<10}" + "".join(f"{c:>28}" for c in columns))
-    cases = [("ping", {"planner.update": "ping"})]
-    cases += [(str(p), {"planner.period_s": p, "guidance.period_s": p}) for p in options.periods]
-    for label, settings in cases:
-        ours = means(options, trial, settings)
-        print(f"  {label:<10}" + "".join(f"{ours[c]:>28.4g}" for c in columns), flush=True)
-    theirs = [float(log[trial][METRICS[c][0]]) for c in columns]
-    print(f"  {'log':<10}" + "".join(f"{x:>28.4g}" for x in theirs))
+    names = ["thrust_time_ratio_mean", "thrust_distance_ratio_mean", "energy_mean_wh",
+             "efficiency_m_per_wh", "quality_settled_m", "centroid_displacement_m"]
+    print(f"  {'period_s':<10}" + "".join(f"{name:>28}" for name in names))
+
+    def row(label, values):
+        print(f"  {label:<10}" + "".join(f"{values[name]:>28.4g}" for name in names), flush=True)
+
+    row("ping", means(options, trial, {"planner.update": "ping"}))
+    logged = {name: float(log[trial][METRICS[name][0]]) for name in names}
+    below = None
+    found = None
+    for period in options.periods:
+        ours = means(options, trial, refreshed_every(period))
+        row(f"{period:g}", ours)
+        here = (period, ours["thrust_time_ratio_mean"])
+        wanted = logged["thrust_time_ratio_mean"]
+        if below and below[1] < wanted <= here[1]:
+            share = (wanted - below[1]) / (here[1] - below[1])
+            found = round((below[0] + share * (here[0] - below[0])) / TICK_S) * TICK_S
+        below = here
+    row("log", logged)
+    if found is None:
+        print("  no period among these agrees with the logged thrust time ratio")
+        return 1
+    print(f"\nThe thrust time ratio agrees with the log at {found:g} s, between two of these.", end="")
+    return compare(options, log, trial, refreshed_every(found))
+
+
+TICK_S = 0.25
+
+
+def refreshed_every(period_s):
+    return {"planner.update": "tick", "planner.period_s": period_s, "guidance.period_s": period_s}
+
+
+# scenario, behaviour, turn of the formation in degrees, read off the thesis' figures 5.45, 5.46, 5.28
+TURNS = [
+    ("maintenance_vortex_hexagonal", "pairwise_referencing", 160),
+    ("maintenance_vortex_square", "rigid_registration", 135),
+    ("maintenance_channels_square", "rigid_registration", -30),
+]
+
+
+def maintenance(options):
+    """How far the formation turns in 7200 s, beside the thesis' figures."""
+    outside = 0
+    print(f"\nturn of the formation in 7200 s, mean of {options.seeds} seeds beside the thesis")
+    print(f"  {'scenario':<30}{'behaviour':<22}{'shoal':>8}{'thesis':>8}{'bound':>7}")
+    for scenario, behaviour, thesis in TURNS:
+        with concurrent.futures.ThreadPoolExecutor(options.jobs) as pool:
+            runs = list(pool.map(
+                lambda seed: shoal(options, scenario, seed, {"behaviour.kind": behaviour}),
+                range(1, options.seeds + 1)))
+        ours = sum(r["formation_rotation_deg"] for r in runs) / len(runs)
+        verdict = "" if abs(ours - thesis) <= 20 else "  outside"
+        outside += verdict != ""
+        print(f"  {scenario:<30}{behaviour:<22}{ours:>8.1f}{thesis:>8}{20:>7}{verdict}")
+    return outside
 
 
 def main():
@@ -113,7 +165,7 @@ def main():
     parser.add_argument("--seeds", type=int, default=20)
     parser.add_argument("--jobs", type=int, default=os.cpu_count())
     parser.add_argument("--assignment", action="store_true")
-    parser.add_argument("--periods", type=float, nargs="+", default=[5, 10, 15, 20, 25])
+    parser.add_argument("--periods", type=float, nargs="+", default=[10, 15, 20, 25, 30])
     options = parser.parse_args()
     options.shared = pathlib.Path(options.shared)
     trials = options.shared / "data" / "redsea_trials.csv"
@@ -123,9 +175,9 @@ def main():
     with trials.open() as file:
         log = {row["behaviour"]: row for row in csv.DictReader(file)}
     if options.assignment:
-        assignment_by_age(options, log)
-        return 0
+        return 1 if assignment_by_age(options, log) else 0
     outside = sum(compare(options, log, trial, {}) for trial in list(TRIALS)[:2])
+    outside += maintenance(options)
     return 1 if outside else 0
 
 

@@ -22,9 +22,10 @@ class Quality final : public Measure {
     every_s_ = options.every_s;
     if (every_s_ <= 0.0) return;
     if (world.size() > most_vehicles) {
-      throw InputError("the formation quality of " + std::to_string(world.size()) +
-                       " vehicles would take longer than the trial (it is meant for up to " +
-                       std::to_string(most_vehicles) + "); set quality.every_s = 0");
+      throw InputError(world.scenario().plan.setting().origin,
+                       "the formation quality of " + std::to_string(world.size()) +
+                           " vehicles would take longer than the trial (it is meant for up to " +
+                           std::to_string(most_vehicles) + "); set quality.every_s = 0");
     }
     metric_ = std::make_shared<FormationQuality>(
         world.scenario().plan.make()->padded(static_cast<int>(options.layers)), options.alignment,

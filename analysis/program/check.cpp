@@ -18,12 +18,13 @@ void check_scenario(const fs::path& file) {
   const scenarios::Scenario scenario = scenarios::read_scenario(scenarios::read_toml(file));
   const scenarios::World world(scenario);  // opens and checks all that it names
   fmt::print("{}: a scenario of {} vehicles, {}, plan {}, current {}, {:g} s\n", file.string(),
-             world.size(), scenario.behaviour.kind(), scenario.plan.kind(),
-             scenario.current.kind(), scenario.trial.duration_s);
+             world.size(), scenario.behaviour.kind(), scenario.plan.kind(), scenario.current.kind(),
+             scenario.trial.duration_s);
 }
 
 void check_csv(const fs::path& file) {
-  const formations::CsvTable table({file, {}}, {.required = {"name", "x_m", "y_m"}, .optional = {"heading_deg"}});
+  const formations::CsvTable table(
+      {file, {}}, {.required = {"name", "x_m", "y_m"}, .optional = {"heading_deg"}});
   std::vector<Eigen::Vector2d> slots;
   const std::vector<double> x = table.numbers("x_m");
   const std::vector<double> y = table.numbers("y_m");

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -9,7 +8,7 @@ namespace shoal::program {
 struct RunArguments {
   std::string scenario;
   std::vector<std::string> sets;
-  std::optional<long long> seed;
+  std::string seed;  ///< as written; empty: the scenario's own
   std::string out;
   int threads = 1;
 };

@@ -19,12 +19,28 @@ std::string value_text(const Setting& value) {
   return std::string(trimmed(text.substr(text.find('=') + 1)));
 }
 
+std::string joined(const std::string& path, const std::string& name) {
+  return path.empty() ? name : path + "." + name;
+}
+
+std::string accepted(const Option& option) {
+  const std::string range = option.range_text();
+  if (option.type == "a number" && range.starts_with("any")) return range;
+  if (option.type == "a number" || option.type == "an integer") return option.type + " " + range;
+  return option.type + (option.unit.empty() ? "" : " in " + option.unit);
+}
+
 void print_option(const Option& option, const Setting& fallback, const std::string& key) {
-  const bool numeric = option.type == "a number" || option.type == "an integer";
-  fmt::print("{}\n    {}\n", key, option.meaning);
-  fmt::print("    takes {}{}{}; default {}\n", option.type,
-             numeric ? " " + option.range.text() : "", option.unit.empty() ? "" : " " + option.unit,
+  fmt::print("{}\n    {}\n    takes {}; default {}\n", key, option.meaning, accepted(option),
              value_text(fallback));
+}
+
+void print_choice(const Option& option, const Setting& fallback, const std::string& key) {
+  fmt::print("{}.kind\n    {}; default {}; one of\n", key, option.meaning,
+             value_text(*fallback.find("kind")));
+  for (const MemberInfo& member : option.choice->members()) {
+    fmt::print("      {:<26} {}\n", member.name, member.summary);
+  }
 }
 
 void print_schema(const Schema& schema, const std::string& path);
@@ -34,8 +50,7 @@ void print_entry(const Option& option, const Setting& fallback, const std::strin
     fmt::print("{}: {}\n", key, option.meaning);
     print_schema(*option.table, key);
   } else if (option.choice) {
-    fmt::print("{}.kind\n    {}\n    one of {}; default {}\n", key, option.meaning,
-               listed(option.choice->names()), value_text(*fallback.find("kind")));
+    print_choice(option, fallback, key);
   } else {
     print_option(option, fallback, key);
   }
@@ -43,8 +58,7 @@ void print_entry(const Option& option, const Setting& fallback, const std::strin
 
 void print_schema(const Schema& schema, const std::string& path) {
   for (const Option& option : schema.options) {
-    print_entry(option, *schema.defaults.find(option.name),
-                path.empty() ? option.name : path + "." + option.name);
+    print_entry(option, *schema.defaults.find(option.name), joined(path, option.name));
   }
 }
 
@@ -53,20 +67,38 @@ void print_member(const RegistryBase& family, const MemberInfo& member, const st
   print_schema(member.schema(), path);
 }
 
+/// The key under which a scenario first chooses from a family, as `behaviour`; "" if none does.
+std::string key_of(const RegistryBase& family, const Schema& schema, const std::string& path) {
+  for (const Option& option : schema.options) {
+    const std::string key = joined(path, option.name);
+    if (option.choice == &family) return key;
+    std::string deeper = option.table ? key_of(family, *option.table, key) : "";
+    if (option.choice) {
+      for (const MemberInfo& member : option.choice->members()) {
+        if (deeper.empty()) deeper = key_of(family, member.schema(), key + "." + member.name);
+      }
+    }
+    if (!deeper.empty()) return deeper;
+  }
+  return "";
+}
+
 /// Walks a dotted key from the scenario's root. Throws InputError at the first unknown part.
 void describe_key(const std::string& key) {
   const Schema* schema = &schema_of<scenarios::Scenario>();
-  const RegistryBase* choice = nullptr;
+  const Option* choice = nullptr;  // set behind an option that is one, until a member is named
+  const Setting* fallback = nullptr;
   std::string walked;
   const auto parts = split(key, '.');
   for (std::size_t i = 0; i < parts.size(); ++i) {
     const std::string part(parts[i]);
     const bool last = i + 1 == parts.size();
+    if (choice && part == "kind" && last) return print_choice(*choice, *fallback, walked);
     if (choice) {
-      if (part == "kind" && last) return print_entry({.name = "", .choice = choice}, {}, walked);
-      const MemberInfo& member = choice->members()[choice->index_of(part, {}, walked)];
+      const RegistryBase& family = *choice->choice;
+      const MemberInfo& member = family.members()[family.index_of(part, {}, walked)];
       walked += "." + part;
-      if (last) return print_member(*choice, member, walked);
+      if (last) return print_member(family, member, walked);
       schema = &member.schema();
       choice = nullptr;
       continue;
@@ -77,10 +109,11 @@ void describe_key(const std::string& key) {
       throw InputError(owner + " has no option \"" + part + '"' +
                        suggestion(part, schema->names()));
     }
-    walked += (walked.empty() ? "" : ".") + part;
-    if (last) return print_entry(*option, *schema->defaults.find(part), walked);
+    walked = joined(walked, part);
+    fallback = schema->defaults.find(part);
+    if (last) return print_entry(*option, *fallback, walked);
     if (option->choice) {
-      choice = option->choice;
+      choice = option;
     } else if (option->table) {
       schema = option->table;
     } else {
@@ -90,31 +123,45 @@ void describe_key(const std::string& key) {
   }
 }
 
-}  // namespace
-
-void describe(const std::string& name) {
-  std::vector<std::string> known = schema_of<scenarios::Scenario>().names();
+/// Every member of that name, of whatever family. Returns whether there is one.
+bool describe_members(const std::string& name, std::vector<std::string>& known) {
   bool found = false;
   for (const RegistryBase* family : families()) {
     for (const MemberInfo& member : family->members()) {
       known.push_back(member.name);
       if (member.name != name) continue;
-      print_member(*family, member, member.name);
+      const std::string key = key_of(*family, schema_of<scenarios::Scenario>(), "");
+      print_member(*family, member, joined(key, name));
       found = true;
     }
   }
-  for (const std::string& scenario : scenarios::library_scenarios()) {
-    known.push_back(scenario);
-    if (scenario != name) continue;
-    const auto root = scenarios::read_toml(scenarios::find_scenario(scenario));
-    fmt::print("{}", to_toml(scenarios::resolved_scenario(scenarios::read_scenario(root))));
-    found = true;
-  }
+  return found;
+}
+
+bool describe_scenario(const std::string& name, std::vector<std::string>& known) {
+  const std::vector<std::string> names = scenarios::library_scenarios();
+  known.insert(known.end(), names.begin(), names.end());
+  if (std::ranges::find(names, name) == names.end()) return false;
+  const Setting root = scenarios::read_toml(scenarios::find_scenario(name));
+  fmt::print("{}", to_toml(scenarios::resolved_scenario(scenarios::read_scenario(root))));
+  return true;
+}
+
+}  // namespace
+
+void describe(const std::string& name) {
+  const Schema& root = schema_of<scenarios::Scenario>();
+  if (name.find('.') != std::string::npos) return describe_key(name);
+
+  bool found = root.find(name) != nullptr;
+  if (found) describe_key(name);
+  std::vector<std::string> known = root.names();
+  found |= describe_members(name, known);
+  found = found || describe_scenario(name, known);
   if (found) return;
-  if (name.find('.') == std::string::npos && !schema_of<scenarios::Scenario>().find(name)) {
-    throw InputError("nothing is called \"" + name + '"' + suggestion(name, known));
-  }
-  describe_key(name);
+  const std::string close = suggestion(name, known);
+  throw InputError("nothing is called \"" + name + '"' +
+                   (close.starts_with("; did") ? close : "; shoal list shows all names"));
 }
 
 }  // namespace shoal::program

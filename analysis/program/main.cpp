@@ -1,12 +1,32 @@
 #include <fmt/core.h>
 
 #include <CLI/CLI.hpp>
+#include <csignal>
 #include <exception>
+#include <new>
 
 #include "commands.hpp"
 #include "shoal/core/error.hpp"
 
 namespace {
+
+/// A message is one line, whatever names and values it quotes.
+std::string one_line(const std::string& message) {
+  std::string line;
+  for (const char c : message) {
+    if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) {
+      line += fmt::format("\\x{:02x}", static_cast<unsigned char>(c));
+    } else {
+      line += c;
+    }
+  }
+  return line;
+}
+
+int complained(const std::string& message, int status) {
+  fmt::print(stderr, "shoal: {}\n", one_line(message));
+  return status;
+}
 
 // Exit status: 0 done, 1 a run failed, 2 bad input or usage.
 int guarded(const std::function<void()>& command) {
@@ -15,19 +35,24 @@ int guarded(const std::function<void()>& command) {
     if (std::fflush(stdout) != 0) throw shoal::SystemError("cannot write to the terminal");
     return 0;
   } catch (const shoal::InputError& error) {
-    fmt::print(stderr, "shoal: {}\n", error.what());
-    return 2;
+    return complained(error.what(), 2);
+  } catch (const std::bad_alloc&) {
+    return complained("there is not enough memory; use fewer vehicles, or record less often", 1);
   } catch (const std::exception& error) {
-    fmt::print(stderr, "shoal: {}\n", error.what());
-    return 1;
+    return complained(error.what(), 1);
   }
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
-  CLI::App app{"shoal: optimisation research toolkit for formation planning of underwater vehicles"};
-  app.set_version_flag("--version", SHOAL_VERSION);
+  // A limit on the size of files, or a reader that has gone, is an error to report, not a signal.
+  std::signal(SIGXFSZ, SIG_IGN);
+  std::signal(SIGPIPE, SIG_IGN);
+
+  CLI::App app{
+      "shoal: optimisation research toolkit for formation planning of underwater vehicles"};
+  app.set_version_flag("--version", "shoal " SHOAL_VERSION);
   app.require_subcommand(1);
   std::function<void()> command;
 
@@ -40,8 +65,13 @@ int main(int argc, char** argv) {
       ->expected(1)
       ->take_all();
   run_command->add_option("--seed", run.seed, "seed of all random numbers (trial.seed)");
-  run_command->add_option("--out", run.out, "folder for the results; default: out/SCENARIO");
-  run_command->add_option("--threads", run.threads, "threads for large swarms; the numbers do not depend on it")
+  run_command->add_option("--out", run.out, "folder for the results; default: out/SCENARIO")
+      ->check([](const std::string& folder) {
+        return std::string(folder.empty() ? "names no folder" : "");
+      });
+  run_command
+      ->add_option("--threads", run.threads,
+                   "threads for large swarms; the numbers do not depend on it")
       ->check(CLI::Range(1, 1024));
   run_command->callback([&] { command = [&] { shoal::program::run(run); }; });
 
@@ -69,8 +99,7 @@ int main(int argc, char** argv) {
   } catch (const CLI::Success& success) {
     return app.exit(success);
   } catch (const CLI::ParseError& error) {
-    fmt::print(stderr, "shoal: {}; see shoal --help\n", error.what());
-    return 2;
+    return complained(error.what() + std::string("; see shoal --help"), 2);
   }
   return guarded(command);
 }

@@ -30,7 +30,7 @@ void run(const RunArguments& arguments) {
   const std::filesystem::path file = scenarios::find_scenario(arguments.scenario);
   Setting root = scenarios::read_toml(file);
   for (const std::string& set : arguments.sets) scenarios::apply_set(root, set);
-  if (arguments.seed) scenarios::apply_set(root, "trial.seed=" + std::to_string(*arguments.seed));
+  if (!arguments.seed.empty()) scenarios::apply_set(root, "trial.seed=" + arguments.seed);
 
   const scenarios::Scenario scenario = scenarios::read_scenario(root);
   const std::string name = file.stem().string();

@@ -149,17 +149,12 @@ std::vector<Node> read_nodes(const NetcdfFile& file, const CurrentLayout& layout
 class NetcdfCurrent final : public Current {
  public:
   static std::unique_ptr<Current> make(const NetcdfOptions& options) {
-    const NetcdfFile file(resolved(options.file));
-    const CurrentLayout layout = understand(file, options.u_variable, options.v_variable);
-    MissionOrigin origin{.x_y = {options.origin_x_m, options.origin_y_m}};
-    if (!options.origin.empty()) origin.longitude_latitude = options.origin.front();
-    MissionFrame frame = mission_frame(file, layout, origin);
-    const double start_s = start_in_file(file, layout, options);
-    VelocityField field(frame.x_m, frame.y_m,
-                        layout.time ? layout.time->values : std::vector<double>{0.0},
-                        read_nodes(file, layout, frame, level_at(file, layout, options)));
-    return std::unique_ptr<Current>(new NetcdfCurrent(file.name(), options.outside, layout,
-                                                      std::move(frame), std::move(field), start_s));
+    const std::filesystem::path path = resolved(options.file);
+    try {
+      return from_file(path, options);
+    } catch (const InputError& error) {
+      throw InputError(options.file.origin, error.what());
+    }
   }
 
   void sample(double time_s, std::span<const double> x_m, std::span<const double> y_m,
@@ -178,6 +173,23 @@ class NetcdfCurrent final : public Current {
   }
 
  private:
+  static std::unique_ptr<Current> from_file(const std::filesystem::path& path,
+                                            const NetcdfOptions& options) {
+    const NetcdfFile file(path);
+    const CurrentLayout layout = understand(file, options.u_variable, options.v_variable);
+    MissionOrigin origin{.x_y = {options.origin_x_m, options.origin_y_m}};
+    if (!options.origin.empty()) origin.longitude_latitude = options.origin.front();
+    MissionFrame frame = mission_frame(file, layout, origin);
+    const double start_s = start_in_file(file, layout, options);
+    VelocityField field(frame.x_m, frame.y_m,
+                        layout.time ? layout.time->values : std::vector<double>{0.0},
+                        read_nodes(file, layout, frame, level_at(file, layout, options)));
+    // Complaints during a trial point at where the file was named.
+    return std::unique_ptr<Current>(new NetcdfCurrent(options.file.origin.prefix() + file.name(),
+                                                      options.outside, layout, std::move(frame),
+                                                      std::move(field), start_s));
+  }
+
   NetcdfCurrent(std::string name, Outside outside, const CurrentLayout& layout, MissionFrame frame,
                 VelocityField field, double start_s)
       : name_(std::move(name)),

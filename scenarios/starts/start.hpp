@@ -27,8 +27,12 @@ class StartSource {
                                    const RandomStreams& random) const = 0;
 };
 
-/// Throws InputError if two vehicles are closer than a millimetre.
-void require_distinct(const std::vector<Start>& starts, const formations::Plan& plan,
-                      const Origin& origin);
+/// The sea is not larger, and the record's numbers would not hold a metre any more.
+inline constexpr double farthest_start_m = 1e7;
+
+/// Throws InputError if two vehicles are closer than a millimetre, or one is farther away than
+/// that.
+void require_usable(const std::vector<Start>& starts, const formations::Plan& plan,
+                    const Origin& origin);
 
 }  // namespace shoal::scenarios

@@ -47,7 +47,7 @@ class StartFile final : public StartSource {
       }
       starts.push_back(*start);
     }
-    require_distinct(starts, plan, {path.path.string(), 0});
+    require_usable(starts, plan, {path.path.string(), 0});
     return starts;
   }
 };

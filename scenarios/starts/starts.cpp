@@ -19,7 +19,7 @@ class BoxStart final : public StartSource {
   double heading_deg = 180.0;
 
   static void declare(Options<BoxStart>& o) {
-    o.number("side_m", &BoxStart::side_m, "m", above(0), "side of the square");
+    o.number("side_m", &BoxStart::side_m, "m", in(1, farthest_start_m), "side of the square");
     o.number("heading_deg", &BoxStart::heading_deg, "deg", in(-360, 360), heading_meaning);
   }
 
@@ -75,7 +75,7 @@ class PointsStart final : public StartSource {
     for (const Eigen::Vector2d& p : points) {
       starts.push_back({p.x(), p.y(), from_compass_deg(heading_deg)});
     }
-    require_distinct(starts, plan, origin);
+    require_usable(starts, plan, origin);
     return starts;
   }
 };
@@ -86,12 +86,17 @@ const Enrol<StartSource, PointsStart> at_points{"points", "at points given in th
 
 }  // namespace
 
-void require_distinct(const std::vector<Start>& starts, const formations::Plan& plan,
-                      const Origin& origin) {
+void require_usable(const std::vector<Start>& starts, const formations::Plan& plan,
+                    const Origin& origin) {
   std::vector<double> x, y;
-  for (const Start& start : starts) {
-    x.push_back(start.x_m);
-    y.push_back(start.y_m);
+  for (std::size_t i = 0; i < starts.size(); ++i) {
+    x.push_back(starts[i].x_m);
+    y.push_back(starts[i].y_m);
+    if (std::hypot(x[i], y[i]) <= farthest_start_m) continue;
+    throw InputError(origin, plan.name(static_cast<int>(i)) + " starts at (" + shortest(x[i]) +
+                                 ", " + shortest(y[i]) + "), which is more than " +
+                                 shortest(farthest_start_m) +
+                                 " m from the origin; give metres from the origin");
   }
   constexpr double coincident_m = 1e-3;
   GridIndex grid;

@@ -27,7 +27,7 @@ class DrifterSwarm final : public Swarm {
                const RandomStreams& random, double tick_s)
       : Swarm(starts.size()),
         type_(type),
-        energy_(energy),
+        power_w_(energy),
         random_(random),
         tick_s_(tick_s),
         steps_(times(tick_s, type.step_s)),
@@ -70,35 +70,34 @@ class DrifterSwarm final : public Swarm {
   }
 
  private:
+  /// A turn of the plane.
+  struct Turn {
+    double cosine, sine;
+
+    // Steps are small turns: their series is exact to rounding and much faster than the functions.
+    explicit Turn(double angle) {
+      if (std::abs(angle) < 0.05) {
+        const double q = angle * angle;
+        cosine = 1.0 - q * (1.0 / 2.0 - q * (1.0 / 24.0 - q / 720.0));
+        sine = angle * (1.0 - q * (1.0 / 6.0 - q * (1.0 / 120.0 - q / 5040.0)));
+      } else {
+        cosine = std::cos(angle);
+        sine = std::sin(angle);
+      }
+    }
+    Eigen::Vector2d operator*(const Eigen::Vector2d& v) const {
+      return {cosine * v.x() - sine * v.y(), sine * v.x() + cosine * v.y()};
+    }
+  };
+
   struct Motor {
     double noise_rad_s = 0.0;  // of the heading rate
     bool on = false;
     double surge_n = 0.0;
-    double heading_thrust = 0.0;  // -1 .. 1, counter-clockwise
+    double heading_thrust = 0.0;                       // -1 .. 1, counter-clockwise
+    Eigen::Vector2d ahead = Eigen::Vector2d::UnitX();  // of the heading, while the vehicle moves
     std::array<double, 16> errors{};
     std::size_t newest = 0;
-    double ahead_x = 1.0, ahead_y = 0.0;  // unit vector of the heading while the vehicle moves
-
-    void face(double heading) {
-      ahead_x = std::cos(heading);
-      ahead_y = std::sin(heading);
-    }
-
-    // Steps are small turns: their series is exact to rounding and much faster than the functions.
-    void turn(double angle) {
-      double c, s;
-      if (std::abs(angle) < 0.05) {
-        const double q = angle * angle;
-        c = 1.0 - q * (1.0 / 2.0 - q * (1.0 / 24.0 - q / 720.0));
-        s = angle * (1.0 - q * (1.0 / 6.0 - q * (1.0 / 120.0 - q / 5040.0)));
-      } else {
-        c = std::cos(angle);
-        s = std::sin(angle);
-      }
-      const double x = ahead_x;
-      ahead_x = c * x - s * ahead_y;
-      ahead_y = s * x + c * ahead_y;
-    }
   };
 
   // The heading rate wanders as an Ornstein-Uhlenbeck process, drawn on its own fixed grid of
@@ -145,11 +144,12 @@ class DrifterSwarm final : public Swarm {
         speed = next;
       }
     }
-    motor.turn(0.5 * turned);
-    x_m[i] += path * motor.ahead_x;
-    y_m[i] += path * motor.ahead_y;
-    motor.turn(0.5 * turned);
-    propulsion_j[i] += energy_.propulsion_w(0.5 * (before + speed), 0.0) * tick_s_;
+    const Turn half(0.5 * turned);
+    const Eigen::Vector2d along = half * motor.ahead;
+    x_m[i] += path * along.x();
+    y_m[i] += path * along.y();
+    motor.ahead = half * along;
+    propulsion_j[i] += power_w_(0.5 * (before + speed), 0.0) * tick_s_;
   }
 
   void thrust(std::size_t i, const Command& command, std::int64_t tick) {
@@ -159,28 +159,36 @@ class DrifterSwarm final : public Swarm {
     if (!motor.on) {
       motor.on = true;
       motor.errors.fill(wrapped(course - heading_rad[i]));
-      motor.face(heading_rad[i]);
+      motor.ahead = {std::cos(heading_rad[i]), std::sin(heading_rad[i])};
     }
     const double dt = type_.step_s;
-    std::int64_t until_control =
-        (controller_steps_ - (tick * steps_) % controller_steps_) % controller_steps_;
+    double heading = heading_rad[i], speed = speed_m_s[i], energy = 0.0;
+    Eigen::Vector2d moved = Eigen::Vector2d::Zero(), ahead = motor.ahead;
+    const auto rate = [&] { return motor.heading_thrust * turn_rate_ + motor.noise_rad_s; };
+    Turn half(0.5 * dt * rate());
+    const std::int64_t phase = (tick * steps_) % controller_steps_;
+    std::int64_t until_control = phase == 0 ? 0 : controller_steps_ - phase;
+
     for (std::int64_t k = 0; k < steps_; ++k) {
       if (until_control-- == 0) {
-        control(motor, course - heading_rad[i], wanted);
+        control(motor, course - heading, wanted);
+        half = Turn(0.5 * dt * rate());
         until_control = controller_steps_ - 1;
       }
-      const double turned = (motor.heading_thrust * turn_rate_ + motor.noise_rad_s) * dt;
-      const double speed = speed_m_s[i];
       const double next = std::max(0.0, speed + per_mass_ * (motor.surge_n - drag(speed)));
-      const double path = rise(i, 0.5 * (speed + next) * dt);
-      motor.turn(0.5 * turned);
-      x_m[i] += path * motor.ahead_x;
-      y_m[i] += path * motor.ahead_y;
-      motor.turn(0.5 * turned);
-      heading_rad[i] += turned;
-      speed_m_s[i] = next;
-      propulsion_j[i] += energy_.propulsion_w(next, motor.heading_thrust) * dt;
+      const Eigen::Vector2d along = half * ahead;
+      moved += rise(i, 0.5 * (speed + next) * dt) * along;
+      ahead = half * along;
+      heading += dt * rate();
+      speed = next;
+      energy += power_w_(speed, motor.heading_thrust) * dt;
     }
+    x_m[i] += moved.x();
+    y_m[i] += moved.y();
+    heading_rad[i] = heading;
+    speed_m_s[i] = speed;
+    motor.ahead = ahead;
+    propulsion_j[i] += energy;
   }
 
   // PD on the heading; the speed is feed-forward from the drag map, and fades with heading error.
@@ -221,7 +229,7 @@ class DrifterSwarm final : public Swarm {
   }
 
   Drifter type_;
-  Energy energy_;
+  PropulsionPower power_w_;
   RandomStreams random_;
   double tick_s_;
   std::int64_t steps_, controller_steps_, noise_ticks_;
@@ -253,7 +261,8 @@ void Drifter::declare(Options<Drifter>& o) {
   o.number("heading_limit_deg", &D::heading_limit_deg, "deg", above(0),
            "no thrust ahead while the heading error is larger");
   o.number("heading_noise_deg_s", &D::heading_noise_deg_s, "deg/s", at_least(0),
-           "standard deviation of the wandering heading rate");
+           "standard deviation of the wandering heading rate; the default wanders by 20 deg rms in "
+           "60 s, as in the author's log");
   o.number("heading_noise_time_s", &D::heading_noise_time_s, "s", above(0),
            "correlation time of the wandering heading rate");
   o.number("heading_noise_limit_deg_s", &D::heading_noise_limit_deg_s, "deg/s", at_least(0),

@@ -19,7 +19,7 @@ struct Drifter final : public VehicleType {
   double heading_damping = 1.0;
   std::int64_t heading_differences = 9;
   double heading_limit_deg = 10.0;
-  double heading_noise_deg_s = 0.224;
+  double heading_noise_deg_s = 0.35;
   double heading_noise_time_s = 200.0;
   double heading_noise_limit_deg_s = 1.0;
   double heading_noise_period_s = 1.0;

@@ -176,7 +176,7 @@ TEST(Options, RefuseNumbersOutOfRangeAndNumbersThatAreNone) {
 
 TEST(Options, RefuseTheWrongType) {
   EXPECT_EQ(complaint("speed_m_s", text("1")),
-            "dir/s.toml:4: speed_m_s is a string; it takes a number in m/s");
+            "dir/s.toml:4: speed_m_s is a string (\"1\"); it takes a number in m/s");
   EXPECT_EQ(complaint("steps", value(2.0)), "dir/s.toml:4: steps is a number; it takes an integer");
   EXPECT_EQ(complaint("on", integer(1)), "dir/s.toml:4: on is an integer; it takes true or false");
   EXPECT_EQ(complaint("title", value(true)),

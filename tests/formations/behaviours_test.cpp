@@ -57,7 +57,9 @@ TEST_P(EnrolledBehaviour, AnswersEveryDegenerateSwarmWithAFiniteTarget) {
     for (const Neighbours& seen : {swarm, without_ids(swarm)}) {
       const Target target = made->step({seen, 0}, plan);
       EXPECT_TRUE(finite(target)) << seen.size() << " neighbours";
-      if (target.held()) EXPECT_EQ(target.position, Vector2d(0, 0)) << name_of(target.reason);
+      if (target.held()) {
+        EXPECT_EQ(target.position, Vector2d(0, 0)) << name_of(target.reason);
+      }
     }
   }
 }

@@ -3,9 +3,9 @@
 #include <cmath>
 #include <cstdio>
 #include <memory>
-#include <vector>
-
 #include <shoal/formations/planner.hpp>
+#include <string>
+#include <vector>
 
 using Eigen::Vector2d;
 using namespace shoal::formations;
@@ -15,29 +15,30 @@ struct Auv {
   Planner planner;    // one per vehicle
 };
 
-// How far the vehicles are from a square of 100 m sides, whatever its place and direction.
-double worst_side_error(const std::vector<Auv>& auvs) {
+// The largest error of a distance between two vehicles: zero in formation, wherever that is.
+double formation_error(const std::vector<Auv>& auvs, const Plan& plan) {
   double worst = 0.0;
-  for (std::size_t i = 0; i < 4; ++i) {
-    const double side = (auvs[i].position - auvs[(i + 1) % 4].position).norm();
-    const double diagonal = (auvs[i].position - auvs[(i + 2) % 4].position).norm();
-    worst = std::fmax(worst, std::abs(side - 100.0));
-    worst = std::fmax(worst, std::abs(diagonal - 100.0 * std::sqrt(2.0)));
+  for (const Auv& a : auvs) {
+    for (const Auv& b : auvs) {
+      const int i = a.planner.own_slot(), j = b.planner.own_slot();
+      const double planned = (plan.slot(i) - plan.slot(j)).norm();
+      worst = std::fmax(worst, std::abs((a.position - b.position).norm() - planned));
+    }
   }
   return worst;
 }
 
 int main() {
-  const auto plan =
-      std::make_shared<const Plan>(std::vector<std::string>{"anna", "bela", "cleo", "dora"},
-                                   std::vector<Vector2d>{{0, 0}, {100, 0}, {100, 100}, {0, 100}});
+  const std::vector<std::string> names{"anna", "bela", "cleo", "dora"};
+  const std::vector<Vector2d> square{{0, 0}, {100, 0}, {100, 100}, {0, 100}};
+  const auto plan = std::make_shared<const Plan>(names, square);
   const std::shared_ptr<const Behaviour> behaviour =
       shoal::Registry<Behaviour>::instance().make("rigid_registration", {}, "behaviour");
 
   std::vector<Auv> auvs;
+  const PingFilterOptions filter{.timeout_s = 10.0};  // no noise: nothing is averaged
   for (const Vector2d& start : {Vector2d(0, 0), {40, 90}, {60, 20}, {-50, 30}}) {
-    const std::string name = plan->name(static_cast<int>(auvs.size()));
-    auvs.push_back({start, Planner(plan, behaviour, name)});
+    auvs.push_back({start, Planner(plan, behaviour, names[auvs.size()], filter)});
   }
 
   for (int second = 0; second < 600; ++second) {
@@ -46,7 +47,7 @@ int main() {
         for (const Auv& sender : auvs) {
           if (&sender == &auv) continue;
           const Vector2d away = sender.position - auv.position;
-          auv.planner.receive({.time_s = 1.0 * second,
+          auv.planner.receive({.time_s = double(second),
                                .range_m = away.norm(),
                                .bearing_rad = std::atan2(away.y(), away.x()),
                                .slot = sender.planner.own_slot()},
@@ -55,17 +56,15 @@ int main() {
       }
       for (Auv& auv : auvs) auv.planner.plan(second, auv.position);
     }
-    for (Auv& auv : auvs) {  // 1 m/s through the water, less when it is almost there
+    for (Auv& auv : auvs) {  // at most 1 m/s
       const Vector2d way = auv.planner.target_from(auv.position);
-      auv.position += way * std::fmin(1.0, 1.0 / (way.norm() + 1e-9));
+      auv.position += way / std::fmax(1.0, way.norm());
     }
   }
 
   for (const Auv& auv : auvs) {
-    const Vector2d target = auv.planner.target_from(auv.position);
-    std::printf("%s is at (%.1f, %.1f) m, its target (%.1f, %.1f) m away\n",
-                plan->name(auv.planner.own_slot()).c_str(), auv.position.x(), auv.position.y(),
-                target.x(), target.y());
+    const Vector2d target = auv.position + auv.planner.target_from(auv.position);
+    std::printf("target (%.2f, %.2f) m\n", target.x(), target.y());
   }
-  return worst_side_error(auvs) < 1.0 ? 0 : 1;
+  return formation_error(auvs, *plan) < 1.0 ? 0 : 1;
 }

@@ -1,0 +1,12 @@
+#pragma once
+
+#include <filesystem>
+#include <span>
+
+namespace shoal {
+
+/// Writes a file that appears under its name only when it is complete. If that fails nothing is
+/// left of it, and a file that was there before stays as it was. Throws SystemError.
+void write_whole_file(const std::filesystem::path& file, std::span<const char> content);
+
+}  // namespace shoal

@@ -1,0 +1,186 @@
+#include "shoal/scenarios/world.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <functional>
+
+#include "shoal/scenarios/toml_file.hpp"
+#include "tests/support/allocation_count.hpp"
+
+namespace shoal::scenarios {
+namespace {
+
+/// A scenario of the given `key=value` settings.
+Scenario scenario(const std::vector<std::string>& sets) {
+  Setting root;
+  for (const std::string& set : sets) apply_set(root, set);
+  return read_scenario(root);
+}
+
+std::vector<std::string> with(std::vector<std::string> sets, std::vector<std::string> more) {
+  sets.insert(sets.end(), more.begin(), more.end());
+  return sets;
+}
+
+const std::vector<std::string> small{"plan.square={rows=3,columns=3}", "trial.duration_s=600",
+                                     "current.kind=vortex", "quality.every_s=0"};
+
+struct Looker final : Observer {
+  double interval_s;
+  std::function<void(const World&)> look;
+  Looker(double every, std::function<void(const World&)> l)
+      : interval_s(every), look(std::move(l)) {}
+  double every_s() const override { return interval_s; }
+  void observe(const World& world) override { look(world); }
+};
+
+/// The final state of a run, bit for bit.
+struct Final {
+  std::vector<double> x, y, heading, energy;
+  bool operator==(const Final&) const = default;
+};
+
+Final run(const Scenario& s, int threads = 1, double look_every_s = 0.0) {
+  World world(s, threads);
+  Looker looker(look_every_s, [](const World&) {});
+  std::vector<Observer*> observers;
+  if (look_every_s > 0.0) observers.push_back(&looker);
+  world.run(observers);
+  const Swarm& swarm = world.swarm();
+  return {swarm.x_m, swarm.y_m, swarm.heading_rad, swarm.propulsion_j};
+}
+
+TEST(World, TheSameSeedGivesTheSameBits) {
+  EXPECT_EQ(run(scenario(small)), run(scenario(small)));
+  EXPECT_NE(run(scenario(small)), run(scenario(with(small, {"trial.seed=2"}))));
+  EXPECT_NE(run(scenario(with(small, {"trial.seed=0"}))),
+            run(scenario(with(small, {"trial.seed=2"}))));
+}
+
+TEST(World, ThreadsDoNotChangeTheNumbers) {
+  const Scenario many =
+      scenario({"plan.square={rows=12,columns=14}", "trial.duration_s=200",
+                "swarm.start.box.side_m=3000", "current.kind=vortex", "quality.every_s=0"});
+  const Final one = run(many, 1);
+  EXPECT_EQ(one, run(many, 2));
+  EXPECT_EQ(one, run(many, 5));
+}
+
+TEST(World, BeingLookedAtDoesNotChangeTheNumbers) {
+  EXPECT_EQ(run(scenario(small)), run(scenario(small), 1, 1.75));
+}
+
+TEST(World, TwoBehavioursMeetTheSameStarts) {
+  const auto starts = [](const char* behaviour) {
+    const World world(scenario(with(small, {std::string("behaviour.kind=") + behaviour})));
+    return std::pair(world.swarm().x_m, world.swarm().y_m);
+  };
+  EXPECT_EQ(starts("rigid_registration"), starts("assignment_registration"));
+}
+
+TEST(World, ANewVehicleDoesNotMoveTheOthersStarts) {
+  const World nine(scenario(small));
+  const World twelve(scenario(with(small, {"plan.square={rows=3,columns=4}"})));
+  for (std::size_t i = 0; i < 9; ++i) EXPECT_EQ(nine.swarm().x_m[i], twelve.swarm().x_m[i]);
+}
+
+TEST(World, AVehicleThatHearsNobodyDriftsAndSaysWhy) {
+  World world(scenario({"plan.square={rows=1,columns=2,separation_m=5000}", "swarm.start.kind=plan",
+                        "current.kind=uniform", "current.uniform={u_m_s=0.1,v_m_s=0.0}",
+                        "trial.duration_s=600", "quality.every_s=0"}));
+  world.run({});
+  for (std::size_t i = 0; i < 2; ++i) {
+    EXPECT_EQ(world.planner(i).last_target().reason, formations::Reason::no_neighbour);
+    EXPECT_EQ(world.logbook(i).thrusting_s, 0.0);
+    EXPECT_NEAR(world.logbook(i).distance_m, 60.0, 1e-9);
+    EXPECT_EQ(world.logbook(i).thrust_distance_m, 0.0);
+    EXPECT_EQ(world.propulsion_wh(i), 0.0);
+    EXPECT_NEAR(world.hotel_wh(i), 1.5 * 600.0 / 3600.0, 1e-12);
+    EXPECT_NEAR(world.comms_wh(i), 21 * 2.4 / 3600.0, 1e-12);  // pings at 0, 30, ..., 600 s
+  }
+}
+
+TEST(World, ForgottenNeighboursLeaveAVehicleDrifting) {
+  // All others fall silent at once: two minutes later the last one has nobody to go by.
+  World world(scenario({"plan.square={rows=1,columns=2}", "trial.duration_s=600",
+                        "faults.node_loss={every_s=100,count=1}", "quality.every_s=0"}));
+  std::vector<formations::Reason> reasons;
+  Looker looker(50.0, [&](const World& w) {
+    const std::size_t left = w.lost(0) ? 1 : 0;
+    reasons.push_back(w.planner(left).last_target().reason);
+  });
+  Observer* observers[] = {&looker};
+  world.run(observers);
+  EXPECT_EQ(world.lost_count(), 1u);
+  EXPECT_EQ(reasons[3], formations::Reason::placed);        // 150 s
+  EXPECT_EQ(reasons[5], formations::Reason::no_neighbour);  // 250 s: last heard at 90 s
+  EXPECT_EQ(reasons.back(), formations::Reason::no_neighbour);
+}
+
+TEST(World, LosesVehiclesWhenTheScenarioSaysSo) {
+  World world(scenario(with(small, {"faults.node_loss={every_s=100,count=4}"})));
+  std::vector<std::size_t> lost;
+  Looker looker(50.0, [&](const World& w) { lost.push_back(w.lost_count()); });
+  Observer* observers[] = {&looker};
+  world.run(observers);
+  EXPECT_EQ(lost, (std::vector<std::size_t>{0, 0, 1, 1, 2, 2, 3, 3, 4, 4, 4, 4, 4}));
+  for (std::size_t i = 0; i < world.size(); ++i) {
+    EXPECT_EQ(world.hotel_wh(i) < 1.5 * 401.0 / 3600.0, world.lost(i));
+  }
+}
+
+TEST(World, EveryVehicleMayBeLost) {
+  World world(scenario(with(small, {"faults.node_loss={every_s=10,count=50}"})));
+  world.run({});
+  EXPECT_EQ(world.lost_count(), 9u);
+}
+
+TEST(World, StaggeredPingsAreSpreadOverThePeriod) {
+  World world(scenario(with(small, {"ping.schedule=staggered", "trial.duration_s=29"})));
+  std::vector<std::int64_t> sent;
+  Looker looker(1.0, [&](const World& w) {
+    std::int64_t all = 0;
+    for (std::size_t i = 0; i < w.size(); ++i) all += w.logbook(i).pings_sent;
+    sent.push_back(all);
+  });
+  Observer* observers[] = {&looker};
+  world.run(observers);
+  EXPECT_EQ(sent[0], 1);
+  EXPECT_EQ(sent[4], 2);  // one every 3.3 s
+  EXPECT_EQ(sent[29], 9);
+}
+
+TEST(World, WithoutIdsTheIdFreeBehavioursStillForm) {
+  for (const std::string behaviour : {"attraction_repulsion", "assignment_registration"}) {
+    const Scenario s = scenario({"plan.square={rows=3,columns=3}", "trial.duration_s=1800",
+                                 "behaviour.kind=" + behaviour, "ping.identified=false",
+                                 "swarm.start.kind=plan", "quality.every_s=0"});
+    World world(s);
+    world.run({});
+    for (std::size_t i = 0; i < world.size(); ++i) {
+      EXPECT_EQ(world.planner(i).last_target().reason, formations::Reason::placed) << behaviour;
+    }
+  }
+}
+
+TEST(World, NothingIsAllocatedInTheSteadyState) {
+  for (const std::string behaviour :
+       {"rigid_registration", "pairwise_referencing", "assignment_registration"}) {
+    World world(scenario({"behaviour.kind=" + behaviour, "swarm.start.kind=plan",
+                          "trial.duration_s=3000", "current.kind=none", "quality.every_s=0"}));
+    std::vector<std::size_t> counts;
+    counts.reserve(100);
+    Looker looker(100.0, [&](const World&) { counts.push_back(tests::allocations()); });
+    Observer* observers[] = {&looker};
+    world.run(observers);
+    EXPECT_EQ(counts[20], counts[30]) << behaviour;
+  }
+}
+
+TEST(World, RefusesASwarmOfOne) {
+  EXPECT_THROW(World(scenario({"plan.square={rows=1,columns=1}"})), InputError);
+}
+
+}  // namespace
+}  // namespace shoal::scenarios
