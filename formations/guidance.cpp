@@ -26,6 +26,9 @@ void DriftGuidance::declare(Options<DriftGuidance>& o) {
            "closer than this the vehicle has arrived");
   o.number("slip_radius_m", &G::slip_radius_m, "m", at_least(0),
            "closer than this, and no longer approaching, it has arrived too");
+  o.word("slip", &G::slip, {{"not_closing", Slip::not_closing}, {"receding", Slip::receding}},
+         "no longer approaching means: not closer than before (Alg. 1), or further away (the "
+         "author's program)");
   o.number("drifting_radius_m", &G::drifting_radius_m, "m", above(0),
            "having arrived it drifts freely until it is further away than this");
   o.number("end_speed_scale", &G::end_speed_scale, "", in(0, 1),
@@ -51,9 +54,10 @@ Command DriftGuidance::steer(const Eigen::Vector2d& relative_target, State& stat
   const double distance = target.norm();
   const double previous = std::exchange(state.previous_distance_m, distance);
 
+  const bool slipping = slip == Slip::not_closing ? distance >= previous : distance > previous;
   if (distance > drifting_radius_m) {
     state.drifting = false;
-  } else if (distance < capture_radius_m || (distance < slip_radius_m && distance > previous)) {
+  } else if (distance < capture_radius_m || (distance < slip_radius_m && slipping)) {
     state.drifting = true;
   }
   if (state.drifting) return {};

@@ -24,10 +24,13 @@ struct Command {
 /// and the drifting radius. Section 3.2 describes the latch that is here: once arrived, the vehicle
 /// drifts until it leaves the drifting radius, also when the target moves inside it.
 struct DriftGuidance {
+  enum class Slip { not_closing, receding };
+
   double speed_m_s = 1.0;
   double capture_radius_m = 3.0;
   double slip_radius_m = 10.0;
   double drifting_radius_m = 20.0;
+  Slip slip = Slip::not_closing;
   double end_speed_scale = 0.5;
   std::int64_t targets_filter_size = 1;
   double period_s = 0.25;

@@ -10,6 +10,7 @@ namespace shoal::formations {
 namespace {
 
 constexpr double coincident_m = 1e-3;
+constexpr double farthest_m = 1e7;  // a quarter of the way round the earth
 constexpr std::size_t names_in_a_message = 24;
 
 std::vector<int> sorted_by(std::span<const std::string> names) {
@@ -71,10 +72,10 @@ Plan::Plan(std::vector<std::string> names, std::vector<Eigen::Vector2d> slots, c
     if (name(i).empty()) {
       throw InputError(origin, "slot " + std::to_string(i + 1) + " of the plan has no name");
     }
-    if (!slot(i).allFinite()) {
+    if (!(slot(i).cwiseAbs().maxCoeff() <= farthest_m) || !slot(i).allFinite()) {
       throw InputError(origin, "slot " + name(i) + " of the plan is at (" + shortest(slot(i).x()) +
                                    ", " + shortest(slot(i).y()) +
-                                   ") m; give it finite coordinates");
+                                   ") m; give it coordinates of at most " + shortest(farthest_m) + " m");
     }
   }
   if (const auto pair = same_name(names_)) {

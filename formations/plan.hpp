@@ -19,8 +19,8 @@ namespace shoal::formations {
 /// is invariant to them.
 class Plan {
  public:
-  /// Throws InputError (with `origin`) for no slots, duplicate names, positions that are not
-  /// finite, and slots closer than a millimetre to one another.
+  /// Throws InputError (with `origin`) for no slots, duplicate names, positions that are not finite
+  /// or beyond 10,000 km, and slots closer than a millimetre to one another.
   Plan(std::vector<std::string> names, std::vector<Eigen::Vector2d> slots,
        const Origin& origin = {});
 

@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "shoal/core/text.hpp"
+
 namespace shoal::formations {
 
 Planner::Planner(std::shared_ptr<const Plan> plan, std::shared_ptr<const Behaviour> behaviour,
@@ -25,6 +27,11 @@ void Planner::receive(const Ping& ping, const Eigen::Vector2d& own_position) {
     throw InputError("a ping carries the own id " + plan_->name(own_slot_) +
                      "; drop echoes of the own pings");
   }
+  if (ping.time_s < last_ping_s_) {
+    throw InputError("a ping of t = " + shortest(ping.time_s) + " s comes after one of t = " +
+                     shortest(last_ping_s_) + " s; give them in the order of their times");
+  }
+  last_ping_s_ = ping.time_s;
   filter_.receive(ping, own_position);
 }
 

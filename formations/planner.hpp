@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <string_view>
@@ -25,8 +26,8 @@ class Planner {
           std::string_view own_name, const PingFilterOptions& filter = {});
 
   /// A ping was heard while the vehicle was at `own_position`. Pings must come in time order.
-  /// Throws InputError if a number is not finite, the range is negative, or the sender's slot is
-  /// the own one or unknown to the plan.
+  /// Throws InputError if a number is not finite, the range is negative, the ping is older than the
+  /// last one, or the sender's slot is the own one or unknown to the plan.
   void receive(const Ping& ping, const Eigen::Vector2d& own_position);
 
   /// Plans anew from what was heard so far and returns the target relative to the vehicle.
@@ -45,6 +46,7 @@ class Planner {
   std::shared_ptr<const Behaviour> behaviour_;
   int own_slot_;
   PingFilter filter_;
+  double last_ping_s_ = -std::numeric_limits<double>::infinity();
   Target target_ = Target::hold(Reason::no_neighbour);
   Eigen::Vector2d target_position_ = Eigen::Vector2d::Zero();
 };

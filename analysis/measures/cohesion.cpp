@@ -30,8 +30,8 @@ class Cohesion final : public Measure {
   }
 
   void finish(const scenarios::World& world, Results& results) const override {
-    results.add("min_separation_m",
-                std::isfinite(least_m_) ? std::optional(least_m_) : std::nullopt);
+    const bool met = least_m_ <= world.scenario().ping.range_m;
+    results.add("min_separation_m", met ? std::optional(least_m_) : std::nullopt);
     results.add("fragments", fragments(world));
     results.add("lost_vehicles", static_cast<double>(world.lost_count()));
   }

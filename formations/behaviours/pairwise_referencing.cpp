@@ -46,7 +46,7 @@ class PairwiseReferencing final : public Behaviour {
     const Eigen::Vector2d& own_slot = plan.slot(seen.own_slot);
     Eigen::Vector2d sum = Eigen::Vector2d::Zero();
     double weights = 0.0;
-    int pairs = 0, identified = 0;
+    int pairs = 0, in_range = 0, identified = 0;
 
     for (std::size_t i = 0; i < seen.neighbours.size(); ++i) {
       const Neighbour& a = seen.neighbours[i];
@@ -58,6 +58,7 @@ class PairwiseReferencing final : public Behaviour {
         const Eigen::Vector2d midpoint = 0.5 * (a.position + b.position);
         const double distance = midpoint.norm();
         if (distance > contact_rangeout_m) continue;
+        ++in_range;
 
         // The rotation from the planned to the actual direction of the pair.
         const Eigen::Vector2d planned = plan.slot(b.slot) - plan.slot(a.slot);
@@ -79,6 +80,7 @@ class PairwiseReferencing final : public Behaviour {
     if (identified < 2) {
       return Target::hold(identified == 0 ? Reason::no_neighbour : Reason::one_neighbour);
     }
+    if (in_range == 0) return Target::hold(Reason::no_neighbour);
     const double divisor = normalisation == Normalisation::weights ? weights : pairs;
     if (!(divisor > 0.0)) return Target::hold(Reason::degenerate);
     return Target::at(sum / divisor, 0.0);

@@ -43,7 +43,8 @@ struct PlanFile final : PlanSource {
                                     const std::string& what) {
     throw InputError(table.origin(index(rows.second)),
                      "this slot " + what + " as that in line " +
-                         std::to_string(table.origin(index(rows.first)).line));
+                         std::to_string(table.origin(index(rows.first)).line) +
+                         "; change one of them");
   }
 };
 

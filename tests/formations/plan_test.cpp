@@ -344,8 +344,8 @@ TEST_F(PlanFromFile, ComplainsOfBadFieldsWithTheirLine) {
 TEST_F(PlanFromFile, NamesBothLinesOfSlotsThatClash) {
   const std::string head = "name,x_m,y_m\na,0,0\n# between\n";
   expect_complaint(head + "b,1,1\na,2,2\n", 5,
-                   "this slot has the same name \"a\" as that in line 2");
-  expect_complaint(head + "b,0,0.0005\n", 4, "this slot is at the same place as that in line 2");
+                   "this slot has the same name \"a\" as that in line 2; change one of them");
+  expect_complaint(head + "b,0,0.0005\n", 4, "this slot is at the same place as that in line 2; change one of them");
 }
 
 TEST_F(PlanFromFile, ComplainsOfAWrongHeader) {

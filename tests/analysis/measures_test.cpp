@@ -1,0 +1,203 @@
+#include <gtest/gtest.h>
+
+#include <numbers>
+
+#include "shoal/analysis/trial.hpp"
+#include "shoal/core/angles.hpp"
+#include "shoal/core/text.hpp"
+#include "shoal/core/transform.hpp"
+#include "shoal/scenarios/toml_file.hpp"
+
+namespace shoal::analysis {
+namespace {
+
+using Settings = std::vector<std::string>;
+
+/// Four vehicles on a square of 300 m that never thrust: they are where their radius says.
+const Settings parked = {"trial.duration_s=100", "plan.square={rows=2,columns=2,separation_m=300}",
+                         "swarm.start.kind=plan", "guidance.drifting_radius_m=100000",
+                         "quality={every_s=10,layers=0}"};
+
+Trial run(const Settings& base, const Settings& more = {}) {
+  Setting root;
+  for (const std::string& setting : base) scenarios::apply_set(root, setting);
+  for (const std::string& setting : more) scenarios::apply_set(root, setting);
+  return run_trial(scenarios::read_scenario(root), {.record = false});
+}
+
+TEST(Results, KnowTheMeasuresByName) {
+  Results results;
+  results.add("a_m", 2.5);
+  results.add("b_m", std::nullopt);
+  EXPECT_EQ(results.at("a_m"), 2.5);
+  EXPECT_EQ(results.at("b_m"), std::nullopt);
+  EXPECT_THROW(results.at("c_m"), std::out_of_range);
+}
+
+TEST(Progress, OfADriftingSwarmIsThatOfTheWater) {
+  const Results results =
+      run(parked, {"current.kind=uniform", "current.uniform={u_m_s=0.3,v_m_s=-0.4}"}).results;
+  EXPECT_NEAR(*results.at("centroid_path_m"), 50.0, 1e-9);
+  EXPECT_NEAR(*results.at("centroid_displacement_m"), 50.0, 1e-9);
+  EXPECT_NEAR(*results.at("efficiency_m_per_wh"), 50.0 / *results.at("energy_mean_wh"), 1e-9);
+}
+
+TEST(Progress, DoesNotCountTheJumpOfTheCentroidWhenAVehicleIsLost) {
+  const Results results = run(parked, {"current.kind=uniform", "current.uniform.u_m_s=0.5",
+                                       "faults.node_loss={every_s=20,count=2}"})
+                              .results;
+  // Of twenty looks 5 s apart, the two at the losses have no common centroid.
+  EXPECT_NEAR(*results.at("centroid_path_m"), 0.5 * (100.0 - 2 * 5.0), 1e-9);
+  EXPECT_EQ(results.at("lost_vehicles"), 2.0);
+}
+
+TEST(Energy, OfADriftingVehicleIsHotelLoadAndPings) {
+  const Results results = run(parked).results;
+  const double hotel_wh = 1.5 * 100.0 / 3600.0;
+  const double comms_wh = 4 * 2.4 / 3600.0;  // pings at 0, 30, 60 and 90 s
+  EXPECT_NEAR(*results.at("energy_hotel_mean_wh"), hotel_wh, 1e-12);
+  EXPECT_NEAR(*results.at("energy_comms_mean_wh"), comms_wh, 1e-12);
+  EXPECT_EQ(results.at("energy_propulsion_mean_wh"), 0.0);
+  for (const char* name : {"energy_mean_wh", "energy_min_wh", "energy_max_wh"}) {
+    EXPECT_NEAR(*results.at(name), hotel_wh + comms_wh, 1e-12) << name;
+  }
+}
+
+TEST(Energy, OfNothingHasNoEfficiency) {
+  const Results results = run(parked, {"energy.hotel_w=0", "energy.ping_j=0"}).results;
+  EXPECT_EQ(results.at("energy_mean_wh"), 0.0);
+  EXPECT_EQ(results.at("efficiency_m_per_wh"), std::nullopt);
+}
+
+TEST(Thrust, OfADriftingSwarmIsNone) {
+  const Results results =
+      run(parked, {"current.kind=uniform", "current.uniform.u_m_s=0.5"}).results;
+  for (const char* name : {"thrust_time_ratio_mean", "thrust_time_ratio_min",
+                           "thrust_time_ratio_max", "thrust_distance_ratio_mean"}) {
+    EXPECT_EQ(results.at(name), 0.0) << name;
+  }
+}
+
+TEST(Thrust, OfVehiclesThatDoNotMoveHasNoShareOfTheDistance) {
+  EXPECT_EQ(run(parked).results.at("thrust_distance_ratio_mean"), std::nullopt);
+}
+
+TEST(Thrust, OfASwarmThatFormsIsAShare) {
+  const Results results = run(parked, {"guidance.drifting_radius_m=20", "swarm.start.kind=points",
+                                       "swarm.start.points.points=[[0,0],[0,50],[50,0],[50,50]]"})
+                              .results;
+  const double mean = *results.at("thrust_time_ratio_mean");
+  EXPECT_GT(mean, 0.5);
+  EXPECT_LE(*results.at("thrust_time_ratio_min"), mean);
+  EXPECT_LE(mean, *results.at("thrust_time_ratio_max"));
+  EXPECT_LE(*results.at("thrust_time_ratio_max"), 1.0);
+  EXPECT_NEAR(*results.at("thrust_distance_ratio_mean"), 1.0, 1e-4);  // still water
+  EXPECT_GT(*results.at("energy_propulsion_mean_wh"), 0.0);
+}
+
+TEST(Cohesion, CountsGroupsOutOfEarshotOfOneAnother) {
+  const Settings apart = {"swarm.start.kind=points",
+                          "swarm.start.points.points=[[0,0],[0,40],[551,0],[551,-60]]"};
+  const Results results = run(parked, apart).results;
+  EXPECT_EQ(results.at("fragments"), 2.0);
+  EXPECT_NEAR(*results.at("min_separation_m"), 40.0, 1e-9);
+  EXPECT_EQ(results.at("lost_vehicles"), 0.0);
+  EXPECT_EQ(run(parked, {apart[0], apart[1], "ping.range_m=552"}).results.at("fragments"), 1.0);
+  EXPECT_EQ(run(parked, {apart[0], apart[1], "ping.range_m=50"}).results.at("fragments"), 3.0);
+}
+
+TEST(Cohesion, HasNoSeparationOfVehiclesThatNeverMeet) {
+  const Results results =
+      run(parked, {"swarm.start.kind=points",
+                   "swarm.start.points.points=[[0,0],[0,2000],[2000,0],[2000,2000]]"})
+          .results;
+  EXPECT_EQ(results.at("min_separation_m"), std::nullopt);
+  EXPECT_EQ(results.at("fragments"), 4.0);
+}
+
+TEST(Cohesion, OfASwarmThatIsLostAltogether) {
+  const Results results = run(parked, {"faults.node_loss={every_s=20,count=4}"}).results;
+  EXPECT_EQ(results.at("lost_vehicles"), 4.0);
+  EXPECT_EQ(results.at("fragments"), 0.0);
+  EXPECT_EQ(results.at("energy_mean_wh"), std::nullopt);
+  EXPECT_EQ(results.at("thrust_time_ratio_mean"), std::nullopt);
+  EXPECT_EQ(results.at("efficiency_m_per_wh"), std::nullopt);
+}
+
+TEST(Quality, OfTheFormationItselfIsZeroAtOnce) {
+  const Results results = run(parked).results;
+  EXPECT_NEAR(*results.at("quality_final_m"), 0.0, 1e-9);
+  EXPECT_NEAR(*results.at("quality_settled_m"), 0.0, 1e-9);
+  EXPECT_EQ(results.at("time_to_quality_20m_s"), 0.0);
+  ASSERT_EQ(results.series.size(), 1u);
+  EXPECT_EQ(results.series[0].name, "quality");
+  EXPECT_EQ(results.series[0].time_s.size(), 11u);
+  EXPECT_EQ(results.series[0].time_s.back(), 100.0);
+}
+
+TEST(Quality, OfTwoVehiclesIsHalfTheErrorOfTheirDistance) {
+  const Results results = run(parked, {"plan.square.rows=1", "swarm.start.kind=points",
+                                       "swarm.start.points.points=[[0,0],[400,0]]"})
+                              .results;
+  EXPECT_NEAR(*results.at("quality_final_m"), 50.0, 1e-9);
+  EXPECT_NEAR(*results.at("quality_settled_m"), 50.0, 1e-9);
+  EXPECT_EQ(results.at("time_to_quality_20m_s"), std::nullopt);
+}
+
+TEST(Quality, IsNotMeasuredWhenNobodyAsks) {
+  const Results results = run(parked, {"quality.every_s=0"}).results;
+  EXPECT_EQ(results.at("quality_final_m"), std::nullopt);
+  EXPECT_TRUE(results.series.empty());
+}
+
+TEST(Quality, IsRefusedForSwarmsThatAreTooLarge) {
+  EXPECT_THROW(run(parked, {"plan.square={rows=30,columns=20}"}), InputError);
+}
+
+TEST(Rotation, IsTheAngleOfThePlanOnTheVehicles) {
+  const Trial still = run(parked);
+  EXPECT_NEAR(*still.results.at("formation_rotation_deg"), 0.0, 1e-9);
+  const Transform2 turned = Transform2::from_angle(radians(35.0), {70.0, -20.0});
+  std::string points;
+  for (const Eigen::Vector2d& slot : still.world->plan().slots()) {
+    const Eigen::Vector2d p = turned * slot;
+    points += "[" + shortest(p.x()) + "," + shortest(p.y()) + "],";
+  }
+  const Results results =
+      run(parked, {"swarm.start.kind=points", "swarm.start.points.points=[" + points + "]"})
+          .results;
+  EXPECT_NEAR(*results.at("formation_rotation_deg"), 35.0, 1e-9);
+}
+
+TEST(Rotation, IsFollowedThroughFullTurns) {
+  // Four vehicles at the same distance from the middle of a vortex go around it together.
+  const Setting options;
+  const auto vortex =
+      Registry<scenarios::Current>::instance().make("vortex", options, "current.vortex");
+  const double radius_m = 150.0 * std::numbers::sqrt2;
+  double u = 0.0, v = 0.0;
+  vortex->sample(0.0, {&radius_m, 1}, std::vector<double>{0.0}, {&u, 1}, {&v, 1});
+  ASSERT_GT(v, 0.0);
+  const double period_s = 2.0 * std::numbers::pi * radius_m / v;
+  const double duration_s = std::ceil(1.5 * period_s);
+  const Results results = run(parked, {"current.kind=vortex", "quality.every_s=0",
+                                       "trial.duration_s=" + std::to_string(duration_s)})
+                              .results;
+  EXPECT_NEAR(*results.at("formation_rotation_deg"), 360.0 * duration_s / period_s, 2.0);
+  EXPECT_NEAR(*results.at("centroid_path_m"), 0.0, 1e-6);
+}
+
+TEST(Trial, HasTheSameMeasuresWithAndWithoutARecord) {
+  Setting root;
+  for (const std::string& setting : parked) scenarios::apply_set(root, setting);
+  scenarios::apply_set(root, "guidance.drifting_radius_m=20");
+  const scenarios::Scenario scenario = scenarios::read_scenario(root);
+  const Trial recorded = run_trial(scenario, {.record = true});
+  const Trial unrecorded = run_trial(scenario, {.record = false});
+  EXPECT_NE(recorded.record, nullptr);
+  EXPECT_EQ(unrecorded.record, nullptr);
+  EXPECT_EQ(recorded.results.values, unrecorded.results.values);
+}
+
+}  // namespace
+}  // namespace shoal::analysis
