@@ -48,21 +48,29 @@ void Options<T>::add(Option option, Value T::*member, Read read, Write write) {
 template <class T>
 void Options<T>::number(std::string name, double T::*member, std::string unit, Range range,
                         std::string meaning) {
-  add({.name = name, .unit = unit, .meaning = meaning, .type = "a number", .range = range}, member,
-      detail::as_number, [](double x) { return x; });
+  add({.name = std::move(name),
+       .unit = std::move(unit),
+       .meaning = std::move(meaning),
+       .type = "a number",
+       .range = range},
+      member, detail::as_number, [](double x) { return x; });
 }
 
 template <class T>
 void Options<T>::integer(std::string name, std::int64_t T::*member, std::string unit, Range range,
                          std::string meaning) {
-  add({.name = name, .unit = unit, .meaning = meaning, .type = "an integer", .range = range},
+  add({.name = std::move(name),
+       .unit = std::move(unit),
+       .meaning = std::move(meaning),
+       .type = "an integer",
+       .range = range},
       member, detail::as_integer, [](std::int64_t x) { return x; });
 }
 
 template <class T>
 void Options<T>::flag(std::string name, bool T::*member, std::string meaning) {
   add(
-      {.name = name, .meaning = meaning, .type = "true or false"}, member,
+      {.name = std::move(name), .meaning = std::move(meaning), .type = "true or false"}, member,
       [](const Option& option, const Setting& value, const std::string& key) {
         const bool* flag = std::get_if<bool>(&value.value);
         if (!flag) detail::refuse_type(option, value, key);
@@ -73,20 +81,20 @@ void Options<T>::flag(std::string name, bool T::*member, std::string meaning) {
 
 template <class T>
 void Options<T>::text(std::string name, std::string T::*member, std::string meaning) {
-  add({.name = name, .meaning = meaning, .type = "a string"}, member, detail::as_text,
-      [](const std::string& x) { return x; });
+  add({.name = std::move(name), .meaning = std::move(meaning), .type = "a string"}, member,
+      detail::as_text, [](const std::string& x) { return x; });
 }
 
 template <class T>
 void Options<T>::file(std::string name, FilePath T::*member, std::string meaning) {
-  add({.name = name, .meaning = meaning, .type = "a file name"}, member, detail::as_file,
-      [](const FilePath& x) { return x.path.string(); });
+  add({.name = std::move(name), .meaning = std::move(meaning), .type = "a file name"}, member,
+      detail::as_file, [](const FilePath& x) { return x.path.string(); });
 }
 
 template <class T>
 void Options<T>::texts(std::string name, std::vector<std::string> T::*member, std::string meaning) {
   add(
-      {.name = name, .meaning = meaning, .type = "a list of strings"}, member,
+      {.name = std::move(name), .meaning = std::move(meaning), .type = "a list of strings"}, member,
       [](const Option& option, const Setting& value, const std::string& key) {
         std::vector<std::string> texts;
         for (const Setting& entry : detail::as_list(option, value, key)) {
@@ -105,7 +113,11 @@ template <class T>
 void Options<T>::points(std::string name, std::vector<Eigen::Vector2d> T::*member,
                         std::string meaning, std::string unit) {
   add(
-      {.name = name, .unit = unit, .meaning = meaning, .type = "a list of [x, y] pairs"}, member,
+      {.name = std::move(name),
+       .unit = std::move(unit),
+       .meaning = std::move(meaning),
+       .type = "a list of [x, y] pairs"},
+      member,
       [](const Option& option, const Setting& value, const std::string& key) {
         std::vector<Eigen::Vector2d> points;
         for (const Setting& entry : detail::as_list(option, value, key)) {
@@ -131,7 +143,7 @@ void Options<T>::word(std::string name, Enum T::*member,
   std::string type = "one of";
   for (const auto& [word, value] : known) type += (type == "one of" ? " \"" : ", \"") + word + '"';
   add(
-      {.name = name, .meaning = meaning, .type = type}, member,
+      {.name = std::move(name), .meaning = std::move(meaning), .type = type}, member,
       [known](const Option& option, const Setting& value, const std::string& key) {
         const std::string& given = detail::as_text(option, value, key);
         std::vector<std::string> names;
@@ -153,7 +165,7 @@ void Options<T>::word(std::string name, Enum T::*member,
 template <class T>
 template <class Nested>
 void Options<T>::table(std::string name, Nested T::*member, std::string meaning) {
-  Option option{.name = name, .meaning = meaning, .type = "a table"};
+  Option option{.name = std::move(name), .meaning = std::move(meaning), .type = "a table"};
   option.table = &schema_of<Nested>();
   option.read = [member](void* object, const Setting& value, const std::string& key) {
     shoal::read(static_cast<T*>(object)->*member, value, key);

@@ -148,7 +148,8 @@ class Choice {
 template <class T>
 template <class Family>
 void Options<T>::choice(std::string name, Choice<Family> T::*member, std::string meaning) {
-  Option option{.name = name, .meaning = meaning, .type = "a table with a kind"};
+  Option option{
+      .name = std::move(name), .meaning = std::move(meaning), .type = "a table with a kind"};
   option.choice = &Registry<Family>::instance();
   option.read = [member](void* object, const Setting& value, const std::string& key) {
     (static_cast<T*>(object)->*member).setting().read(Registry<Family>::instance(), value, key);

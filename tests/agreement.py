@@ -165,7 +165,7 @@ def main():
     parser.add_argument("--seeds", type=int, default=20)
     parser.add_argument("--jobs", type=int, default=os.cpu_count())
     parser.add_argument("--assignment", action="store_true")
-    parser.add_argument("--periods", type=float, nargs="+", default=[10, 15, 20, 25, 30])
+    parser.add_argument("--periods", type=float, nargs="+", default=[10, 15, 20, 25, 30, 35])
     options = parser.parse_args()
     options.shared = pathlib.Path(options.shared)
     trials = options.shared / "data" / "redsea_trials.csv"

@@ -36,8 +36,9 @@ struct Lattice final : PlanSource {
       throw InputError(origin, "a lattice cannot be padded by " + std::to_string(layers) +
                                    " layers; give 0 or more");
     }
-    const std::int64_t padded_rows = rows + 2 * layers;
-    const std::int64_t padded_columns = columns + 2 * layers;
+    const std::int64_t more = std::int64_t{2} * layers;
+    const std::int64_t padded_rows = rows + more;
+    const std::int64_t padded_columns = columns + more;
     std::vector<std::string> names;
     std::vector<Eigen::Vector2d> slots;
     for (std::int64_t column = 0; column < padded_columns; ++column) {

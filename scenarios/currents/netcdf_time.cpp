@@ -261,6 +261,7 @@ Calendar calendar_named(std::string_view name) {
     if (known.name == lower(name)) return known.calendar;
   }
   std::vector<std::string> names;
+  names.reserve(std::size(calendar_names));
   for (const CalendarName& known : calendar_names) names.emplace_back(known.name);
   throw InputError("the calendar \"" + std::string(name) + "\" is not one of " + listed(names));
 }

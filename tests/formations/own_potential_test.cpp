@@ -47,9 +47,10 @@ TEST(OwnPotential, HasItsOptionsReadAndRefusedLikeAnyOther) {
     Registry<Behaviour>::instance().make("attraction_repulsion", options, "behaviour");
     FAIL();
   } catch (const InputError& error) {
-    EXPECT_STREQ(error.what(),
-                 "swarm.toml:7: behaviour.potential.test_spring has no option \"stiffnes\"; did you "
-                 "mean \"stiffness\"?");
+    EXPECT_STREQ(
+        error.what(),
+        "swarm.toml:7: behaviour.potential.test_spring has no option \"stiffnes\"; did you "
+        "mean \"stiffness\"?");
   }
 }
 

@@ -21,7 +21,7 @@ inline std::filesystem::path shared_data(const std::string& name) {
 }  // namespace shoal::tests
 
 /// Skips the test, visibly, where the public data is not at hand.
-#define SHOAL_NEEDS_SHARED(path)                                                              \
-  if (!std::filesystem::exists(path)) {                                                       \
+#define SHOAL_NEEDS_SHARED(path)                                                             \
+  if (!std::filesystem::exists(path)) {                                                      \
     GTEST_SKIP() << (path) << " is not here; set SHOAL_SHARED to the folder of public data"; \
   }
