@@ -12,8 +12,8 @@ namespace shoal::solvers {
 
 /// An objective of `dimension` unknowns with exact first and second derivatives.
 ///
-/// `gradient` (dimension) and `hessian` (dimension x dimension, column-major) may be null: then they
-/// are not wanted. Throwing is allowed and reaches the caller of the solver unchanged.
+/// `gradient` (dimension) and `hessian` (dimension x dimension, column-major) may be null: then
+/// they are not wanted. Throwing is allowed and reaches the caller of the solver unchanged.
 class Objective {
  public:
   virtual ~Objective() = default;
@@ -35,8 +35,9 @@ class Problem {
 
   /// `objective`: any type derived from Objective (autodiff.hpp makes one of a templated cost).
   template <class Concrete>
-    requires std::is_base_of_v<Objective, std::remove_cvref_t<Concrete>>
-  Problem(const Vector& start_point, const Concrete& objective) : start(start_point) {
+  requires std::is_base_of_v<Objective, std::remove_cvref_t<Concrete>> Problem(
+      const Vector& start_point, const Concrete& objective)
+      : start(start_point) {
     adopt(objective);
   }
   Problem(const Problem& other);
@@ -48,10 +49,10 @@ class Problem {
     return objective_->evaluate(x, gradient, hessian);
   }
 
-  Vector start;                            ///< metres, in the frame of the one who poses it
-  std::optional<Vector> lower;             ///< both or none
+  Vector start;                 ///< metres, in the frame of the one who poses it
+  std::optional<Vector> lower;  ///< both or none
   std::optional<Vector> upper;
-  std::optional<double> best_known;        ///< the lowest cost known, for tests
+  std::optional<double> best_known;  ///< the lowest cost known, for tests
 
  private:
   void adopt(const Objective& objective);

@@ -15,12 +15,12 @@ namespace shoal::solvers {
 enum class Status : std::uint8_t {
   converged,
   target_reached,
-  budget,              ///< the evaluations ran out
-  stalled_at_roundoff, ///< no further progress is possible in floating point
+  budget,               ///< the evaluations ran out
+  stalled_at_roundoff,  ///< no further progress is possible in floating point
   infeasible,
-  diverged,            ///< no finite cost or no finite point
-  bad_input,           ///< the problem cannot be posed like this (NaN start, crossed bounds)
-  callback_failed,     ///< the objective threw; the exception is rethrown
+  diverged,         ///< no finite cost or no finite point
+  bad_input,        ///< the problem cannot be posed like this (NaN start, crossed bounds)
+  callback_failed,  ///< the objective threw; the exception is rethrown
 };
 std::string_view name_of(Status status);
 

@@ -8,8 +8,8 @@ namespace shoal::solvers {
 /// A number that carries its gradient and Hessian with respect to N unknowns.
 ///
 /// Costs templated on their scalar are differentiated exactly by evaluating them on it. (Dual
-/// numbers of dual numbers, ceres::Jet<ceres::Jet<...>>, would do the same, but refuse products with
-/// plain numbers, so that `2.0 * x` would not compile in somebody's cost.)
+/// numbers of dual numbers, ceres::Jet<ceres::Jet<...>>, would do the same, but refuse products
+/// with plain numbers, so that `2.0 * x` would not compile in somebody's cost.)
 template <int N>
 struct Taylor {
   using Gradient = Eigen::Matrix<double, N, 1>;

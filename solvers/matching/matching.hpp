@@ -19,7 +19,7 @@ namespace shoal::solvers {
 struct MatchingProblem {
   std::span<const Eigen::Vector2d> points;
   std::span<const Eigen::Vector2d> slots;
-  double ownship_weight = 1.0;  ///< of points[0]; the others weigh 1
+  double ownship_weight = 1.0;    ///< of points[0]; the others weigh 1
   double delta_theta_deg = 10.0;  ///< step between the rotations tried, for searches that sample
 };
 
