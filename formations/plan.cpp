@@ -75,7 +75,8 @@ Plan::Plan(std::vector<std::string> names, std::vector<Eigen::Vector2d> slots, c
     if (!(slot(i).cwiseAbs().maxCoeff() <= farthest_m) || !slot(i).allFinite()) {
       throw InputError(origin, "slot " + name(i) + " of the plan is at (" + shortest(slot(i).x()) +
                                    ", " + shortest(slot(i).y()) +
-                                   ") m; give it coordinates of at most " + shortest(farthest_m) + " m");
+                                   ") m; give it coordinates of at most " + shortest(farthest_m) +
+                                   " m");
     }
   }
   if (const auto pair = same_name(names_)) {

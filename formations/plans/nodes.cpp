@@ -24,8 +24,10 @@ struct Nodes final : PlanSource {
       slots.emplace_back(number(node, values, "x"), number(node, values, "y"));
     }
     // The plan itself would refuse these too, but without the strings.
-    if (const auto pair = same_name(names)) complain(*pair, "have the same name; rename one of them");
-    if (const auto pair = same_place(slots)) complain(*pair, "are at the same place; move one of them");
+    if (const auto pair = same_name(names))
+      complain(*pair, "have the same name; rename one of them");
+    if (const auto pair = same_place(slots))
+      complain(*pair, "are at the same place; move one of them");
     return Plan(std::move(names), std::move(slots), origin).centred();
   }
 
