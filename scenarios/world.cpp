@@ -11,9 +11,6 @@
 namespace shoal::scenarios {
 namespace {
 
-using formations::Command;
-using formations::DriftGuidance;
-
 // Enough vehicles to share the work per call, few enough to stay in the cache for a whole stretch.
 constexpr std::size_t block_size = 64;
 
