@@ -6,13 +6,13 @@
 namespace {
 thread_local std::size_t count = 0;
 
-void* counted(std::size_t size) {
+[[maybe_unused]] void* counted(std::size_t size) {
   ++count;
   if (void* memory = std::malloc(size > 0 ? size : 1)) return memory;
   throw std::bad_alloc();
 }
 
-void* counted(std::size_t size, std::align_val_t alignment) {
+[[maybe_unused]] void* counted(std::size_t size, std::align_val_t alignment) {
   ++count;
   const auto step = static_cast<std::size_t>(alignment);
   if (void* memory = std::aligned_alloc(step, (size + step - 1) / step * step)) return memory;
@@ -23,6 +23,9 @@ void* counted(std::size_t size, std::align_val_t alignment) {
 std::size_t shoal::tests::allocations() noexcept {
   return count;
 }
+
+// The sanitizers bring operators of their own; under them nothing is counted.
+#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
 
 // The forms for arrays and the ones that do not throw call these, by the standard's defaults.
 void* operator new(std::size_t size) {
@@ -43,3 +46,5 @@ void operator delete(void* memory, std::align_val_t) noexcept {
 void operator delete(void* memory, std::size_t, std::align_val_t) noexcept {
   std::free(memory);
 }
+
+#endif

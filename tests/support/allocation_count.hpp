@@ -7,7 +7,7 @@ namespace shoal::tests {
 /// How often this thread has asked operator new for memory so far.
 ///
 /// Programs that link allocation_count.cpp have their operator new and delete replaced, also for
-/// the shared libraries that they load.
+/// the shared libraries that they load. Always 0 under a sanitizer.
 std::size_t allocations() noexcept;
 
 }  // namespace shoal::tests
