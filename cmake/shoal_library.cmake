@@ -22,6 +22,9 @@ target_compile_options(shoal_warnings INTERFACE -Wall -Wextra -Wpedantic -Wshado
 function(shoal_library layer)
   file(GLOB_RECURSE sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/${layer}/*.cpp)
   list(FILTER sources EXCLUDE REGEX "/(program|tools|python)/")
+  if(NOT SHOAL_IPOPT)
+    list(FILTER sources EXCLUDE REGEX "/ipopt\\.cpp$")
+  endif()
   add_library(shoal_${layer} SHARED ${sources})
   add_library(shoal::${layer} ALIAS shoal_${layer})
   set_target_properties(shoal_${layer} PROPERTIES EXPORT_NAME ${layer} VERSION ${PROJECT_VERSION}
