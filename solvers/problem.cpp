@@ -5,7 +5,12 @@
 namespace shoal::solvers {
 
 Problem::Problem(const Problem& other)
-    : start(other.start), lower(other.lower), upper(other.upper), best_known(other.best_known) {
+    : start(other.start),
+      lower(other.lower),
+      upper(other.upper),
+      constraints(other.constraints),
+      least_squares(other.least_squares),
+      best_known(other.best_known) {
   adopt(*other.objective_);
 }
 
@@ -15,6 +20,8 @@ Problem& Problem::operator=(const Problem& other) {
   start = other.start;
   lower = other.lower;
   upper = other.upper;
+  constraints = other.constraints;
+  least_squares = other.least_squares;
   best_known = other.best_known;
   adopt(*other.objective_);
   return *this;

@@ -8,7 +8,11 @@
 #include <type_traits>
 #include <utility>
 
+#include "shoal/solvers/vector_function.hpp"
+
 namespace shoal::solvers {
+
+struct LeastSquares;
 
 /// An objective of `dimension` unknowns with exact first and second derivatives.
 ///
@@ -24,13 +28,24 @@ class Objective {
   virtual std::pair<Objective*, bool> copy_into(void* storage, std::size_t size) const = 0;
 };
 
-/// A smooth problem: minimise the objective from the start, inside the bounds (if any).
+/// What copy_into() does for any objective that can be copied.
+template <class Concrete>
+std::pair<Objective*, bool> copied_into(const Concrete& objective, void* storage,
+                                        std::size_t size) {
+  if (sizeof(Concrete) <= size && alignof(Concrete) <= alignof(std::max_align_t)) {
+    return {new (storage) Concrete(objective), false};
+  }
+  return {new Concrete(objective), true};
+}
+
+/// A smooth problem: minimise the objective from the start, inside the bounds (if any), where all
+/// constraints (if any) are at least zero.
 ///
 /// A copyable value. Small objectives are held in place, so that posing a problem in a control
 /// loop does not allocate.
 class Problem {
  public:
-  static constexpr int max_dimension = 3;
+  static constexpr int max_dimension = 6;
   using Vector = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, max_dimension, 1>;
 
   /// `objective`: any type derived from Objective (autodiff.hpp makes one of a templated cost).
@@ -52,7 +67,9 @@ class Problem {
   Vector start;                 ///< metres, in the frame of the one who poses it
   std::optional<Vector> lower;  ///< both or none
   std::optional<Vector> upper;
-  std::optional<double> best_known;  ///< the lowest cost known, for tests
+  std::shared_ptr<const VectorFunction> constraints;  ///< g(x) >= 0; nullptr: none
+  std::shared_ptr<const LeastSquares> least_squares;  ///< of the same cost; nullptr: has none
+  std::optional<double> best_known;                   ///< the lowest cost known, for tests
 
  private:
   void adopt(const Objective& objective);

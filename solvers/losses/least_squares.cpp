@@ -1,0 +1,16 @@
+#include "shoal/solvers/loss.hpp"
+
+namespace shoal::solvers {
+namespace {
+
+struct Square final : Loss {
+  LossValue at(double squared) const override { return {squared, 1.0, 0.0}; }
+  bool is_square() const override { return true; }
+
+  static void declare(Options<Square>&) {}
+};
+
+const Enrol<Loss, Square> enrolled{"least_squares", "the square of the residual"};
+
+}  // namespace
+}  // namespace shoal::solvers

@@ -1,0 +1,28 @@
+#include "shoal/solvers/loss.hpp"
+
+namespace shoal::solvers {
+namespace {
+
+/// k^2 / 3 (1 - (1 - (r / k)^2)^3) up to the scale k, constant beyond: the biweight of Beaton and
+/// Tukey 1974, scaled so that it begins as r^2.
+struct Tukey final : Loss {
+  double scale_m = 100.0;
+
+  LossValue at(double squared) const override {
+    const double k2 = scale_m * scale_m;
+    if (squared >= k2) return {k2 / 3.0, 0.0, 0.0};
+    const double left = 1.0 - squared / k2;
+    return {k2 / 3.0 * (1.0 - left * left * left), left * left, -2.0 * left / k2};
+  }
+
+  static void declare(Options<Tukey>& o) {
+    o.number("scale_m", &Tukey::scale_m, "m", above(0),
+             "residuals beyond this have no influence at all");
+  }
+};
+
+const Enrol<Loss, Tukey> enrolled{"tukey",
+                                  "constant beyond a scale: outliers are ignored (biweight)"};
+
+}  // namespace
+}  // namespace shoal::solvers
