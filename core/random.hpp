@@ -13,6 +13,7 @@ enum class Purpose : std::uint32_t {
   elevation,
   ping_loss,
   node_loss,
+  solver,
 };
 
 /// Counter-based random numbers (Philox4x32-10): the n-th number of a stream is a pure function of

@@ -24,4 +24,11 @@ std::string_view name_of(Status status) {
   return "unknown";
 }
 
+Solution refused(const Problem& problem) {
+  Solution solution;
+  solution.x.setConstant(problem.start.size(), std::numeric_limits<double>::quiet_NaN());
+  solution.backend_says = "the solver does not take this problem; its refuses() says why";
+  return solution;
+}
+
 }  // namespace shoal::solvers

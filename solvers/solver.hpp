@@ -13,14 +13,14 @@ namespace shoal::solvers {
 
 /// How a solve ended, decided by our own check of the point and not by the backend's word.
 enum class Status : std::uint8_t {
-  converged,
+  converged,  ///< a local minimum: see is_local_minimum() in smooth/minimum.hpp
   target_reached,
   budget,               ///< the evaluations ran out
-  stalled_at_roundoff,  ///< no further progress is possible in floating point
-  infeasible,
-  diverged,         ///< no finite cost or no finite point
-  bad_input,        ///< the problem cannot be posed like this (NaN start, crossed bounds)
-  callback_failed,  ///< the objective threw; the exception is rethrown
+  stalled_at_roundoff,  ///< the backend finds nothing lower, but the check finds no minimum
+  infeasible,           ///< no point was found that keeps to the constraints
+  diverged,             ///< no finite cost, or stopped by one that is not finite
+  bad_input,            ///< the problem cannot be posed like this (NaN start, crossed bounds)
+  callback_failed,      ///< the objective threw; the exception is rethrown
 };
 std::string_view name_of(Status status);
 
@@ -30,8 +30,9 @@ struct Solution {
   Status status = Status::bad_input;
   int backend_code = 0;
   const char* backend_says = "";  ///< the backend's own sentence
-  double violation = 0.0;         ///< of bounds, recomputed by us
+  double violation = 0.0;         ///< of bounds and constraints, recomputed by us
   int evaluations = 0;
+  int distinct_minima = 0;  ///< that a search from many starts came across; 0: did not look
   double seconds = 0.0;
 
   /// True if x may be acted upon: finite, inside the bounds, and not worse than the start.
@@ -43,8 +44,9 @@ struct Solution {
 
 /// Minimises a smooth problem from its start.
 ///
-/// Stateless: one solver may serve many threads if `thread_safe()`. Never throws for numerical
-/// trouble (that is a status); throws what the objective throws.
+/// Stateless: one solver may serve many threads. Never throws for numerical trouble (that is a
+/// status); throws what the objective throws. The same problem gives the same bits, also from
+/// methods that draw random numbers: their seed is an option.
 class Solver {
  public:
   static constexpr const char* family = "solver";
@@ -53,9 +55,15 @@ class Solver {
   virtual ~Solver() = default;
   virtual Solution solve(const Problem& problem) const = 0;
 
-  /// Why this solver cannot take the problem ("needs bounds"), or nothing if it can.
+  /// Why this solver cannot take the problem ("needs bounds"), or nothing if it can. A problem
+  /// that is refused is answered with `bad_input`.
   virtual std::optional<std::string> refuses(const Problem& problem) const = 0;
-  virtual bool thread_safe() const { return true; }
+
+  /// Why threads that use this solver wait for one another, or nothing if they do not.
+  virtual std::optional<std::string> one_at_a_time() const { return std::nullopt; }
 };
+
+/// The answer of a solver that refuses the problem.
+Solution refused(const Problem& problem);
 
 }  // namespace shoal::solvers

@@ -1,34 +1,40 @@
 #include <nlopt.h>
 
-#include <Eigen/Cholesky>
-#include <algorithm>
 #include <array>
-#include <chrono>
 #include <cmath>
-#include <exception>
 
-#include "shoal/solvers/solver.hpp"
+#include "shoal/solvers/smooth/attempt.hpp"
 
 namespace shoal::solvers {
 namespace {
 
 using Vector = Problem::Vector;
-using Matrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, Problem::max_dimension,
-                             Problem::max_dimension>;
 
-struct NloptOptions {
-  std::int64_t max_evaluations = 200;
-  double x_tolerance_m = 1e-4;
+struct LocalOptions : Limits {
+  static constexpr std::int64_t seed = 1;
   double initial_step_m = 1.0;
 
-  static void declare(Options<NloptOptions>& o) {
-    o.integer("max_evaluations", &NloptOptions::max_evaluations, "", in(1, 1e9),
-              "evaluations of the cost after which the solver stops");
-    // The optimum lies near the origin of the own frame, where a relative tolerance cannot be met.
-    o.number("x_tolerance_m", &NloptOptions::x_tolerance_m, "m", above(0.0),
-             "step below which the solver stops, absolute");
-    o.number("initial_step_m", &NloptOptions::initial_step_m, "m", above(0.0),
-             "first step of the methods that use no derivatives");
+  static void declare(Options<LocalOptions>& o) { declare_limits(o); }
+};
+
+/// For methods that use no derivatives and probe the surroundings instead.
+struct ProbingOptions : LocalOptions {
+  ProbingOptions() { max_evaluations = 1000; }
+
+  static void declare(Options<ProbingOptions>& o) {
+    declare_limits(o);
+    o.number("initial_step_m", &ProbingOptions::initial_step_m, "m", above(0.0), "first step");
+  }
+};
+
+struct GlobalOptions : GlobalLimits {
+  std::int64_t seed = 1;
+  double initial_step_m = 1.0;
+
+  static void declare(Options<GlobalOptions>& o) {
+    declare_limits(o);
+    o.integer("seed", &GlobalOptions::seed, "", in(0, 4294967295.0),
+              "of the random numbers that the method draws (if it draws any)");
   }
 };
 
@@ -36,248 +42,186 @@ struct Algorithm {
   const char* name;
   nlopt_algorithm id;
   bool uses_gradient;
+  bool takes_constraints;
+  bool global;
   int least_unknowns;
   const char* summary;
 };
 
-// COBYLA is left out: it may never return, whatever limits are set.
 constexpr std::array algorithms{
-    Algorithm{"nlopt_lbfgs", NLOPT_LD_LBFGS, true, 1, "NLopt: limited-memory BFGS"},
-    Algorithm{"nlopt_slsqp", NLOPT_LD_SLSQP, true, 1, "NLopt: sequential quadratic programming"},
-    Algorithm{"nlopt_mma", NLOPT_LD_MMA, true, 1, "NLopt: method of moving asymptotes"},
-    Algorithm{"nlopt_ccsaq", NLOPT_LD_CCSAQ, true, 1,
+    Algorithm{"nlopt_lbfgs", NLOPT_LD_LBFGS, true, false, false, 1, "NLopt: limited-memory BFGS"},
+    Algorithm{"nlopt_slsqp", NLOPT_LD_SLSQP, true, true, false, 1,
+              "NLopt: sequential quadratic programming"},
+    Algorithm{"nlopt_mma", NLOPT_LD_MMA, true, true, false, 1,
+              "NLopt: method of moving asymptotes"},
+    Algorithm{"nlopt_ccsaq", NLOPT_LD_CCSAQ, true, true, false, 1,
               "NLopt: conservative convex separable quadratic approximations"},
-    Algorithm{"nlopt_tnewton", NLOPT_LD_TNEWTON, true, 1, "NLopt: truncated Newton"},
-    Algorithm{"nlopt_var2", NLOPT_LD_VAR2, true, 1, "NLopt: variable metric, rank 2"},
-    Algorithm{"nlopt_bobyqa", NLOPT_LN_BOBYQA, false, 2,
+    Algorithm{"nlopt_tnewton", NLOPT_LD_TNEWTON, true, false, false, 1, "NLopt: truncated Newton"},
+    Algorithm{"nlopt_var2", NLOPT_LD_VAR2, true, false, false, 1, "NLopt: variable metric, rank 2"},
+    Algorithm{"nlopt_bobyqa", NLOPT_LN_BOBYQA, false, false, false, 2,
               "NLopt: quadratic models without derivatives (used by Rypkema 2015)"},
-    Algorithm{"nlopt_neldermead", NLOPT_LN_NELDERMEAD, false, 1, "NLopt: Nelder-Mead simplex"},
-    Algorithm{"nlopt_sbplx", NLOPT_LN_SBPLX, false, 1, "NLopt: Subplex, simplices on subspaces"},
-    Algorithm{"nlopt_praxis", NLOPT_LN_PRAXIS, false, 1,
+    Algorithm{"nlopt_cobyla", NLOPT_LN_COBYLA, false, true, false, 1,
+              "NLopt: linear models without derivatives"},
+    Algorithm{"nlopt_neldermead", NLOPT_LN_NELDERMEAD, false, false, false, 1,
+              "NLopt: Nelder-Mead simplex"},
+    Algorithm{"nlopt_sbplx", NLOPT_LN_SBPLX, false, false, false, 1,
+              "NLopt: Subplex, simplices on subspaces"},
+    Algorithm{"nlopt_praxis", NLOPT_LN_PRAXIS, false, false, false, 1,
               "NLopt: principal axes, without derivatives"},
+    Algorithm{"nlopt_direct_l", NLOPT_GN_DIRECT_L, false, false, true, 1,
+              "NLopt: dividing rectangles, in a box"},
+    Algorithm{"nlopt_crs2", NLOPT_GN_CRS2_LM, false, false, true, 1,
+              "NLopt: controlled random search with local mutation, in a box"},
+    Algorithm{"nlopt_isres", NLOPT_GN_ISRES, false, true, true, 1,
+              "NLopt: evolution strategy with stochastic ranking, in a box"},
+    Algorithm{"nlopt_mlsl", NLOPT_GD_MLSL_LDS, true, false, true, 1,
+              "NLopt: L-BFGS from low-discrepancy starts, in a box"},
+    Algorithm{"nlopt_stogo", NLOPT_GD_STOGO, true, false, true, 1,
+              "NLopt: branch and bound with local searches, in a box"},
 };
 
-// What is wrong with the start or the bounds, or nullptr.
-const char* flaw(const Problem& problem) {
-  const Vector& start = problem.start;
-  if (start.size() < 1) return "the start has no unknowns";
-  if (!start.allFinite()) return "the start is not finite";
-  if (problem.lower.has_value() != problem.upper.has_value()) {
-    return "one of the bounds is missing; give both or none";
-  }
-  if (!problem.lower) return nullptr;
-  const Vector& low = *problem.lower;
-  const Vector& high = *problem.upper;
-  if (low.size() != start.size() || high.size() != start.size()) {
-    return "the bounds and the start differ in size";
-  }
-  for (Eigen::Index i = 0; i < start.size(); ++i) {
-    if (std::isnan(low[i]) || std::isnan(high[i])) return "a bound is NaN";
-    if (low[i] > high[i]) return "a lower bound lies above its upper bound";
-    if (start[i] < low[i] || start[i] > high[i]) return "the start lies outside the bounds";
-  }
-  return nullptr;
-}
-
-/// One solve: stands between NLopt and the cost, and remembers the best point that it saw.
+/// One solve: NLopt on one side, the attempt on the other.
 class Run {
  public:
-  Run(const Problem& problem, const Algorithm& algorithm, const NloptOptions& options)
-      : problem_(problem), algorithm_(algorithm), options_(options), point_(problem.start) {
-    for (int i = 0; i < problem.dimension(); ++i) {
-      // NLopt ignores requests to stop while a lower bound equals its upper bound.
-      if (!problem.lower || (*problem.lower)[i] < (*problem.upper)[i]) free_.push_back(i);
-    }
-    solution_.x = Vector::Constant(problem.start.size(), std::numeric_limits<double>::quiet_NaN());
-  }
+  Run(Attempt& attempt, const Algorithm& algorithm) : attempt_(attempt), algorithm_(algorithm) {}
 
-  Solution solve() {
-    if (free_.empty()) {
-      evaluate(problem_.start.data(), nullptr);
-      solution_.backend_says = "every unknown is fixed by its bounds";
-      if (failure_) std::rethrow_exception(failure_);
-      solution_.status = met_nan_ ? Status::diverged : Status::converged;
-      return solution_;
+  template <class SomeOptions>
+  Solution solve(const SomeOptions& options) {
+    const Handle owner = made(algorithm_.id, options);
+    backend_ = owner.get();
+    nlopt_set_min_objective(backend_, &Run::cost, this);
+    if (attempt_.bounded()) {
+      nlopt_set_lower_bounds(backend_, attempt_.lower().data());
+      nlopt_set_upper_bounds(backend_, attempt_.upper().data());
     }
-    if (free_.size() < static_cast<std::size_t>(algorithm_.least_unknowns)) {
-      solution_.backend_says = "needs at least two unknowns that are not fixed by their bounds";
-      return solution_;
+    if (algorithm_.takes_constraints && attempt_.constraints() > 0) {
+      nlopt_add_inequality_mconstraint(backend_, static_cast<unsigned>(attempt_.constraints()),
+                                       &Run::constraints, this, nullptr);
     }
-    const nlopt_result result = optimise();
-    if (failure_) std::rethrow_exception(failure_);
-    solution_.backend_code = static_cast<int>(result);
-    if (const char* says = nlopt_result_to_string(result)) solution_.backend_says = says;
-    solution_.status = judge(result);
-    return solution_;
+    if (algorithm_.id == NLOPT_GD_MLSL_LDS) {
+      const Handle local = made(NLOPT_LD_LBFGS, options);
+      nlopt_set_local_optimizer(backend_, local.get());
+    }
+    // What is drawn belongs to this solve: the same problem shall give the same answer.
+    nlopt_srand(static_cast<unsigned long>(options.seed));
+    double lowest = 0.0;
+    Vector x = attempt_.start();
+    const nlopt_result result = nlopt_optimize(backend_, x.data(), &lowest);
+    const char* says = nlopt_result_to_string(result);
+    return attempt_.finish(static_cast<int>(result), says ? says : "");
   }
 
  private:
-  nlopt_result optimise() {
-    const std::unique_ptr<nlopt_opt_s, decltype(&nlopt_destroy)> owner(
-        nlopt_create(algorithm_.id, static_cast<unsigned>(free_.size())), &nlopt_destroy);
-    backend_ = owner.get();
-    if (!backend_) throw std::bad_alloc();
-    nlopt_set_min_objective(backend_, &Run::called_back, this);
-    nlopt_set_maxeval(backend_, static_cast<int>(options_.max_evaluations));
-    nlopt_set_xtol_abs1(backend_, options_.x_tolerance_m);
-    if (!algorithm_.uses_gradient) nlopt_set_initial_step1(backend_, options_.initial_step_m);
-    if (problem_.lower) {
-      nlopt_set_lower_bounds(backend_, reduced(*problem_.lower).data());
-      nlopt_set_upper_bounds(backend_, reduced(*problem_.upper).data());
+  using Handle = std::unique_ptr<nlopt_opt_s, decltype(&nlopt_destroy)>;
+
+  template <class SomeOptions>
+  Handle made(nlopt_algorithm id, const SomeOptions& options) const {
+    Handle handle(nlopt_create(id, static_cast<unsigned>(attempt_.unknowns())), &nlopt_destroy);
+    if (!handle) throw std::bad_alloc();
+    nlopt_set_maxeval(handle.get(), static_cast<int>(options.max_evaluations));
+    nlopt_set_xtol_abs1(handle.get(), options.x_tolerance_m);
+    if (!algorithm_.uses_gradient && !algorithm_.global) {
+      nlopt_set_initial_step1(handle.get(), options.initial_step_m);
     }
-    // It draws random directions; the same problem shall give the same answer.
-    if (algorithm_.id == NLOPT_LN_PRAXIS) nlopt_srand(1);
-    double cost = 0.0;
-    Vector x = reduced(problem_.start);
-    return nlopt_optimize(backend_, x.data(), &cost);
+    return handle;
   }
 
-  Vector reduced(const Vector& full) const {
-    Vector part(static_cast<Eigen::Index>(free_.size()));
-    for (std::size_t k = 0; k < free_.size(); ++k)
-      part[static_cast<Eigen::Index>(k)] = full[free_[k]];
-    return part;
+  // NLopt is C: no exception may pass. What it is told after a stop does not matter, but has to be
+  // finite: on infinities COBYLA may circle in its linear model for ever, without a call back.
+  static double cost(unsigned, const double* y, double* gradient, void* self) {
+    Run& run = *static_cast<Run*>(self);
+    double value = 0.0;
+    if (!run.stopped_ && run.attempt_.evaluate(y, value, gradient) == Attempt::Outcome::fine) {
+      return value;
+    }
+    run.stop();
+    for (int k = 0; gradient && k < run.attempt_.unknowns(); ++k) gradient[k] = 0.0;
+    return std::isfinite(run.attempt_.worst_cost()) ? run.attempt_.worst_cost() : 0.0;
   }
 
-  static double called_back(unsigned, const double* x, double* gradient, void* self) {
-    return static_cast<Run*>(self)->evaluate(x, gradient);
-  }
-
-  // NLopt is C: no exception may pass, and what it is told after a stop does not matter.
-  double evaluate(const double* x, double* gradient) {
-    constexpr double refused = HUGE_VAL;
-    if (met_nan_ || failure_) return refused;
-    if (solution_.evaluations >= options_.max_evaluations) {
-      out_of_budget_ = true;
-      return stop(refused);
-    }
-    for (std::size_t k = 0; k < free_.size(); ++k) point_[free_[k]] = x[k];
-    Vector slope = Vector::Zero(point_.size());
-    double cost = 0.0;
-    try {
-      ++solution_.evaluations;
-      cost = problem_.evaluate(point_.data(), gradient ? slope.data() : nullptr);
-    } catch (...) {
-      failure_ = std::current_exception();
-      return stop(refused);
-    }
-    if (!std::isfinite(cost) || !slope.allFinite()) {
-      met_nan_ = true;
-      return stop(refused);
-    }
-    if (gradient) {
-      double squared = 0.0;
-      for (std::size_t k = 0; k < free_.size(); ++k) {
-        gradient[k] = slope[free_[k]];
-        squared += gradient[k] * gradient[k];
+  static void constraints(unsigned count, double* values, unsigned unknowns, const double* y,
+                          double* gradients, void* self) {
+    Run& run = *static_cast<Run*>(self);
+    for (unsigned k = 0; k < count; ++k) {
+      double* gradient = gradients ? gradients + k * unknowns : nullptr;
+      const auto outcome = run.attempt_.constrain(static_cast<int>(k), y, values[k], gradient);
+      if (outcome != Attempt::Outcome::fine) {
+        run.stop();
+        values[k] = 0.0;
+        for (unsigned i = 0; gradient && i < unknowns; ++i) gradient[i] = 0.0;
       }
-      steepest_ = std::max(steepest_, std::sqrt(squared));
+      values[k] = -values[k];  // NLopt's constraints are g <= 0
+      for (unsigned i = 0; gradient && i < unknowns; ++i) gradient[i] = -gradient[i];
     }
-    if (inside_bounds(point_) && !(solution_.cost <= cost)) {
-      solution_.cost = cost;
-      solution_.x = point_;
-    }
-    return cost;
   }
 
-  double stop(double value) {
-    if (backend_) nlopt_force_stop(backend_);
-    return value;
+  // Some methods go on for a while.
+  void stop() {
+    stopped_ = true;
+    nlopt_force_stop(backend_);
   }
 
-  bool inside_bounds(const Vector& x) const {
-    return !problem_.lower ||
-           ((x - *problem_.lower).minCoeff() >= 0.0 && (*problem_.upper - x).minCoeff() >= 0.0);
-  }
-
-  Status judge(nlopt_result result) {
-    if (met_nan_ || !std::isfinite(solution_.cost)) return Status::diverged;
-    if (algorithm_.uses_gradient && is_minimum()) return Status::converged;
-    if (out_of_budget_ || result == NLOPT_MAXEVAL_REACHED) return Status::budget;
-    if (!algorithm_.uses_gradient && result > 0) return Status::converged;
-    if (result == NLOPT_INVALID_ARGS) return Status::bad_input;
-    // The methods that use no derivatives end like this, and line searches that find nothing lower.
-    return Status::stalled_at_roundoff;
-  }
-
-  // Nothing to be gained but by leaving the bounds: the slope is small beside the steepest one met,
-  // or Newton's step from here is about as short as the tolerance asked for. This one evaluation is
-  // ours and not on the solver's account.
-  bool is_minimum() const {
-    constexpr double flat = 1e-6;
-    constexpr double slack = 10.0;  // the backends bound their last step, not the error
-    Vector slope(problem_.dimension());
-    Matrix curvature(problem_.dimension(), problem_.dimension());
-    problem_.evaluate(solution_.x.data(), slope.data(), curvature.data());
-    if (!slope.allFinite() || !curvature.allFinite()) return false;
-    for (int i = 0; i < problem_.dimension(); ++i) {
-      if (!pushes_outwards(i, slope[i])) continue;
-      slope[i] = 0.0;
-      curvature.row(i).setZero();
-      curvature.col(i).setZero();
-      curvature(i, i) = 1.0;
-    }
-    if (slope.norm() <= flat * steepest_) return true;
-    const Eigen::LLT<Matrix> factor(curvature);
-    return factor.info() == Eigen::Success &&
-           factor.solve(slope).norm() <= slack * options_.x_tolerance_m;
-  }
-
-  bool pushes_outwards(int i, double slope) const {
-    if (!problem_.lower) return false;
-    const double below = solution_.x[i] - (*problem_.lower)[i];
-    const double above = (*problem_.upper)[i] - solution_.x[i];
-    return (below <= 0.0 && slope >= 0.0) || (above <= 0.0 && slope <= 0.0);
-  }
-
-  const Problem& problem_;
+  Attempt& attempt_;
   const Algorithm& algorithm_;
-  const NloptOptions& options_;
-  std::vector<int> free_;
-  Vector point_;
-  Solution solution_;
   nlopt_opt backend_ = nullptr;
-  std::exception_ptr failure_;
-  bool met_nan_ = false;
-  bool out_of_budget_ = false;
-  double steepest_ = 0.0;
+  bool stopped_ = false;
 };
 
+template <class SomeOptions>
 class Nlopt final : public Solver {
  public:
-  Nlopt(const Algorithm& algorithm, const NloptOptions& options)
+  Nlopt(const Algorithm& algorithm, const SomeOptions& options)
       : algorithm_(algorithm), options_(options) {}
 
   Solution solve(const Problem& problem) const override {
-    const auto begin = std::chrono::steady_clock::now();
-    Solution solution;
-    if (const char* wrong = flaw(problem)) {
-      solution.x.setConstant(problem.start.size(), std::numeric_limits<double>::quiet_NaN());
-      solution.backend_says = wrong;
-    } else {
-      solution = Run(problem, algorithm_, options_).solve();
-    }
-    solution.seconds =
-        std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-    return solution;
+    if (refuses(problem)) return refused(problem);
+    Attempt attempt(problem, options_);
+    if (!attempt.open()) return attempt.finish(0, "");
+    return Run(attempt, algorithm_).solve(options_);
   }
 
   std::optional<std::string> refuses(const Problem& problem) const override {
-    if (problem.dimension() >= algorithm_.least_unknowns) return std::nullopt;
-    return "needs at least " + std::to_string(algorithm_.least_unknowns) + " unknowns";
+    if (problem.constraints && !algorithm_.takes_constraints) return "takes no constraints";
+    if (algorithm_.global && !problem.lower) return "needs bounds: it searches the whole box";
+    if (algorithm_.global && !(problem.lower->allFinite() && problem.upper->allFinite())) {
+      return "needs finite bounds: it searches the whole box";
+    }
+    const int unknowns = free_unknowns(problem);
+    if (unknowns > 0 && unknowns < algorithm_.least_unknowns) {
+      return "needs at least two unknowns that are not fixed by their bounds";
+    }
+    return std::nullopt;
   }
 
  private:
+  static int free_unknowns(const Problem& problem) {
+    if (!problem.lower || !problem.upper || problem.lower->size() != problem.upper->size()) {
+      return problem.dimension();
+    }
+    return static_cast<int>((problem.lower->array() != problem.upper->array()).count());
+  }
+
   const Algorithm& algorithm_;
-  NloptOptions options_;
+  SomeOptions options_;
 };
+
+template <class SomeOptions>
+void enrol(const Algorithm& algorithm) {
+  Enrol<Solver, SomeOptions>(algorithm.name, algorithm.summary,
+                             [&algorithm](const SomeOptions& options) {
+                               return std::make_unique<Nlopt<SomeOptions>>(algorithm, options);
+                             });
+}
 
 const bool enrolled = [] {
   for (const Algorithm& algorithm : algorithms) {
-    Enrol<Solver, NloptOptions>(algorithm.name, algorithm.summary,
-                                [&algorithm](const NloptOptions& options) {
-                                  return std::make_unique<Nlopt>(algorithm, options);
-                                });
+    if (algorithm.global) {
+      enrol<GlobalOptions>(algorithm);
+    } else if (algorithm.uses_gradient) {
+      enrol<LocalOptions>(algorithm);
+    } else {
+      enrol<ProbingOptions>(algorithm);
+    }
   }
   return true;
 }();

@@ -1,0 +1,214 @@
+#include "shoal/solvers/smooth/attempt.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "shoal/solvers/least_squares.hpp"
+#include "shoal/solvers/smooth/minimum.hpp"
+
+namespace shoal::solvers {
+namespace {
+
+constexpr int n_max = Problem::max_dimension;
+using Vector = Problem::Vector;
+
+}  // namespace
+
+Attempt::Attempt(const Problem& problem, const Limits& limits)
+    : problem_(problem),
+      limits_(limits),
+      point_(problem.start),
+      best_(Vector::Constant(problem.start.size(), std::numeric_limits<double>::quiet_NaN())),
+      best_cost_(std::numeric_limits<double>::quiet_NaN()) {
+  wrong_ = flaw();
+  if (wrong_) return;
+  for (int i = 0; i < problem.dimension(); ++i) {
+    if (!problem.lower || (*problem.lower)[i] < (*problem.upper)[i]) free_[free_count_++] = i;
+  }
+  open_ = free_count_ > 0;
+  if (!open_) {
+    double cost = 0.0;
+    evaluate(nullptr, cost);
+  }
+}
+
+const char* Attempt::flaw() const {
+  const Vector& start = problem_.start;
+  if (start.size() < 1) return "the start has no unknowns";
+  if (!start.allFinite()) return "the start is not finite";
+  if (problem_.constraints && problem_.constraints->block_size() != 1) {
+    return "constraints come in blocks of one";
+  }
+  if (problem_.lower.has_value() != problem_.upper.has_value()) {
+    return "one of the bounds is missing; give both or none";
+  }
+  if (!problem_.lower) return nullptr;
+  const Vector& low = *problem_.lower;
+  const Vector& high = *problem_.upper;
+  if (low.size() != start.size() || high.size() != start.size()) {
+    return "the bounds and the start differ in size";
+  }
+  for (Eigen::Index i = 0; i < start.size(); ++i) {
+    if (std::isnan(low[i]) || std::isnan(high[i])) return "a bound is NaN";
+    if (low[i] > high[i]) return "a lower bound lies above its upper bound";
+    if (start[i] < low[i] || start[i] > high[i]) return "the start lies outside the bounds";
+  }
+  return nullptr;
+}
+
+Vector Attempt::free_part(const Vector& all) const {
+  Vector part(free_count_);
+  for (int k = 0; k < free_count_; ++k) part[k] = all[free_[k]];
+  return part;
+}
+
+void Attempt::place(const double* y) {
+  for (int k = 0; k < free_count_; ++k) point_[free_[k]] = y[k];
+}
+
+template <class Function>
+Attempt::Outcome Attempt::guarded(Function function) {
+  if (must_stop()) return Outcome::stop;
+  try {
+    if (function()) return Outcome::fine;
+  } catch (...) {
+    failure_ = std::current_exception();
+    return Outcome::stop;
+  }
+  met_not_finite_ = true;
+  return Outcome::not_finite;
+}
+
+Attempt::Outcome Attempt::evaluate(const double* y, double& cost, double* gradient,
+                                   double* hessian) {
+  if (evaluations_ >= limits_.max_evaluations) out_of_budget_ = true;
+  return guarded([&] {
+    ++evaluations_;
+    place(y);
+    const int n = problem_.dimension();
+    double slope[n_max], curvature[n_max * n_max];
+    cost =
+        problem_.evaluate(point_.data(), gradient ? slope : nullptr, hessian ? curvature : nullptr);
+    bool finite = std::isfinite(cost);
+    for (int k = 0; gradient && k < free_count_; ++k) {
+      gradient[k] = slope[free_[k]];
+      finite = finite && std::isfinite(gradient[k]);
+    }
+    for (int k = 0; hessian && k < free_count_ * free_count_; ++k) {
+      hessian[k] = curvature[free_[k / free_count_] * n + free_[k % free_count_]];
+      finite = finite && std::isfinite(hessian[k]);
+    }
+    if (!finite) return false;
+    if (gradient) {
+      double squared = 0.0;
+      for (int k = 0; k < free_count_; ++k) squared += gradient[k] * gradient[k];
+      steepest_ = std::max(steepest_, std::sqrt(squared));
+    }
+    remember(cost);
+    return true;
+  });
+}
+
+Attempt::Outcome Attempt::constrain(int k, const double* y, double& value, double* gradient,
+                                    double* hessian) {
+  return guarded([&] {
+    place(y);
+    const int n = problem_.dimension();
+    double slope[n_max], curvature[n_max * n_max];
+    problem_.constraints->evaluate(k, point_.data(), &value, gradient ? slope : nullptr,
+                                   hessian ? curvature : nullptr);
+    bool finite = std::isfinite(value);
+    for (int i = 0; gradient && i < free_count_; ++i) {
+      gradient[i] = slope[free_[i]];
+      finite = finite && std::isfinite(gradient[i]);
+    }
+    for (int i = 0; hessian && i < free_count_ * free_count_; ++i) {
+      hessian[i] = curvature[free_[i / free_count_] * n + free_[i % free_count_]];
+      finite = finite && std::isfinite(hessian[i]);
+    }
+    return finite;
+  });
+}
+
+Attempt::Outcome Attempt::residuals(int block, const double* y, double* values, double* jacobian) {
+  return guarded([&] {
+    place(y);
+    constexpr int m_max = VectorFunction::max_block_size;
+    const VectorFunction& function = *problem_.least_squares->residuals;
+    const int m = function.block_size(), n = problem_.dimension();
+    double whole[m_max * n_max];
+    function.evaluate(block, point_.data(), values, jacobian ? whole : nullptr, nullptr);
+    bool finite = true;
+    for (int r = 0; r < m; ++r) {
+      finite = finite && std::isfinite(values[r]);
+      for (int k = 0; jacobian && k < free_count_; ++k) {
+        const double entry = jacobian[r * free_count_ + k] = whole[r * n + free_[k]];
+        finite = finite && std::isfinite(entry);
+      }
+    }
+    return finite;
+  });
+}
+
+// Of two points the one that breaks its constraints less is better, of two that keep to them the
+// one that costs less.
+void Attempt::remember(double cost) {
+  worst_cost_ = std::max(worst_cost_, cost);
+  const double outside = bounds_violation(problem_, point_);
+  const double broken = constraint_violation(problem_, point_);
+  if (std::isnan(broken)) return;
+  const double violation = outside > 0.0 || broken > feasibility ? std::max(outside, broken) : 0.0;
+  const bool first = std::isnan(best_cost_);
+  const bool better =
+      violation < best_violation_ || (violation == best_violation_ && cost < best_cost_);
+  if (!first && !better) return;
+  best_ = point_;
+  best_cost_ = cost;
+  best_violation_ = violation;
+}
+
+Solution Attempt::finish(int code, const char* says) {
+  if (failure_) std::rethrow_exception(failure_);
+  if (wrong_) return answer(Status::bad_input, 0, wrong_);
+  if (!open_) return answer(judge(), 0, "every unknown is fixed by its bounds");
+  return answer(judge(), code, says);
+}
+
+Solution Attempt::finish_converged(const char* says) {
+  return answer(Status::converged, 0, says);
+}
+
+Status Attempt::judge() const {
+  if (std::isnan(best_cost_)) return Status::diverged;
+  if (best_violation_ > 0.0) return Status::infeasible;
+  if (!open_) return Status::converged;
+  double steepest = steepest_;
+  if (steepest == 0.0) {  // of a method that uses no derivatives: the slope at the start will do
+    Vector slope(problem_.dimension());
+    problem_.evaluate(problem_.start.data(), slope.data());
+    if (slope.allFinite()) steepest = slope.norm();
+  }
+  if (is_local_minimum(problem_, best_, limits_.x_tolerance_m, steepest)) return Status::converged;
+  if (met_not_finite_) return Status::diverged;
+  if (evaluations_ >= limits_.max_evaluations) return Status::budget;
+  return Status::stalled_at_roundoff;
+}
+
+Solution Attempt::answer(Status status, int code, const char* says) const {
+  Solution solution;
+  solution.x = best_;
+  solution.cost = best_cost_;
+  solution.status = status;
+  solution.backend_code = code;
+  solution.backend_says = says;
+  if (!std::isnan(best_cost_)) {
+    solution.violation =
+        std::max(bounds_violation(problem_, best_), constraint_violation(problem_, best_));
+  }
+  solution.evaluations = evaluations_;
+  solution.seconds =
+      std::chrono::duration<double>(std::chrono::steady_clock::now() - begin_).count();
+  return solution;
+}
+
+}  // namespace shoal::solvers

@@ -1,0 +1,102 @@
+#pragma once
+
+#include <chrono>
+#include <exception>
+
+#include "shoal/solvers/smooth/limits.hpp"
+#include "shoal/solvers/solver.hpp"
+
+namespace shoal::solvers {
+
+/// One solve of one problem: stands between a backend and the cost.
+///
+/// Counts evaluations and ends them when the budget is spent, keeps exceptions and costs that are
+/// not finite from the backend, leaves out unknowns that are fixed by equal bounds (backends
+/// stumble over them), remembers the best point, and judges it in the end. Everything that a
+/// backend says about its success is ignored.
+///
+/// Points y, gradients and matrices are in the free unknowns only.
+class Attempt {
+ public:
+  /// What a backend learns of an evaluation.
+  enum class Outcome : std::uint8_t {
+    fine,
+    not_finite,  ///< no such point; those that can may try a shorter step
+    stop,        ///< the budget is spent or the cost threw: come to an end
+  };
+
+  Attempt(const Problem& problem, const Limits& limits);
+  Attempt(const Attempt&) = delete;
+  Attempt& operator=(const Attempt&) = delete;
+
+  /// False if there is nothing to do for a backend (a flaw in the problem, no free unknown):
+  /// finish() has the answer.
+  bool open() const { return open_; }
+
+  int unknowns() const { return free_count_; }
+  Problem::Vector start() const { return free_part(problem_.start); }
+  bool bounded() const { return problem_.lower.has_value(); }
+  Problem::Vector lower() const { return free_part(*problem_.lower); }
+  Problem::Vector upper() const { return free_part(*problem_.upper); }
+  int constraints() const { return problem_.constraints ? problem_.constraints->blocks() : 0; }
+
+  /// The cost at y, its gradient and its Hessian (column-major) where they are not null.
+  Outcome evaluate(const double* y, double& cost, double* gradient = nullptr,
+                   double* hessian = nullptr);
+
+  /// Constraint k at y. Not counted as an evaluation.
+  Outcome constrain(int k, const double* y, double& value, double* gradient = nullptr,
+                    double* hessian = nullptr);
+
+  /// One block of the residuals of a least-squares problem at y, with its Jacobian (row-major).
+  Outcome residuals(int block, const double* y, double* values, double* jacobian);
+
+  bool must_stop() const { return failure_ || out_of_budget_; }
+  bool met_not_finite() const { return met_not_finite_; }
+
+  /// The best point so far; meaningless before the first fine evaluation.
+  Problem::Vector best() const { return free_part(best_); }
+
+  /// What a backend that can only be stopped by a number is told instead of the cost.
+  double worst_cost() const { return worst_cost_; }
+
+  /// Judges the best point. Rethrows what the cost threw. `code` and `says` (a literal): the
+  /// backend's own words.
+  Solution finish(int code, const char* says);
+
+  /// The same for our own solvers, whose criterion is a check of the point: `converged`.
+  Solution finish_converged(const char* says);
+
+ private:
+  const char* flaw() const;
+  Problem::Vector free_part(const Problem::Vector& all) const;
+  void place(const double* y);
+  void remember(double cost);
+  Status judge() const;
+  Solution answer(Status status, int code, const char* says) const;
+
+  /// Runs what may throw.
+  template <class Function>
+  Outcome guarded(Function function);
+
+  static constexpr double feasibility = 1e-6;  // of a constraint, in its own unit
+
+  const Problem& problem_;
+  const Limits limits_;
+  const std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();
+  int free_[Problem::max_dimension] = {};
+  int free_count_ = 0;
+  bool open_ = false;
+  const char* wrong_ = nullptr;
+
+  Problem::Vector point_, best_;
+  double best_cost_, best_violation_ = 0.0;
+  double worst_cost_ = -std::numeric_limits<double>::infinity();
+  double steepest_ = 0.0;
+  int evaluations_ = 0;
+  std::exception_ptr failure_;
+  bool out_of_budget_ = false;
+  bool met_not_finite_ = false;
+};
+
+}  // namespace shoal::solvers

@@ -1,0 +1,141 @@
+#include <ceres/cost_function.h>
+#include <ceres/evaluation_callback.h>
+#include <ceres/loss_function.h>
+#include <ceres/problem.h>
+#include <ceres/solver.h>
+
+#include <vector>
+
+#include "shoal/solvers/least_squares.hpp"
+#include "shoal/solvers/smooth/attempt.hpp"
+
+namespace shoal::solvers {
+namespace {
+
+struct LeastSquaresOptions : Limits {
+  static void declare(Options<LeastSquaresOptions>& o) { declare_limits(o); }
+};
+
+class Block final : public ceres::CostFunction {
+ public:
+  Block(Attempt& attempt, int block, int size) : attempt_(attempt), block_(block) {
+    set_num_residuals(size);
+    mutable_parameter_block_sizes()->push_back(attempt.unknowns());
+  }
+
+  bool Evaluate(double const* const* y, double* residuals, double** jacobians) const override {
+    double* jacobian = jacobians ? jacobians[0] : nullptr;
+    return attempt_.residuals(block_, y[0], residuals, jacobian) == Attempt::Outcome::fine;
+  }
+
+ private:
+  Attempt& attempt_;
+  int block_;
+};
+
+class WeightedLoss final : public ceres::LossFunction {
+ public:
+  WeightedLoss(const LeastSquares& structure, double weight)
+      : structure_(structure), weight_(weight) {}
+
+  void Evaluate(double squared, double rho[3]) const override {
+    const LossValue loss = structure_.loss_at(squared);
+    rho[0] = weight_ * loss.value;
+    rho[1] = weight_ * loss.slope;
+    rho[2] = weight_ * loss.curvature;
+  }
+
+ private:
+  const LeastSquares& structure_;
+  double weight_;
+};
+
+/// Sees every point that Ceres tries: for the count, the budget and the best point.
+class Trials final : public ceres::EvaluationCallback {
+ public:
+  Trials(Attempt& attempt, const double* y) : attempt_(attempt), y_(y) {}
+
+  void PrepareForEvaluation(bool, bool new_point) override {
+    double cost = 0.0;
+    if (new_point) attempt_.evaluate(y_, cost);
+  }
+
+ private:
+  Attempt& attempt_;
+  const double* y_;
+};
+
+class ShortStep final : public ceres::IterationCallback {
+ public:
+  ShortStep(const Attempt& attempt, double tolerance) : attempt_(attempt), tolerance_(tolerance) {}
+
+  ceres::CallbackReturnType operator()(const ceres::IterationSummary& iteration) override {
+    if (attempt_.must_stop()) return ceres::SOLVER_ABORT;
+    const bool moved = iteration.iteration > 0 && iteration.step_is_successful;
+    return moved && iteration.step_norm <= tolerance_ ? ceres::SOLVER_TERMINATE_SUCCESSFULLY
+                                                      : ceres::SOLVER_CONTINUE;
+  }
+
+ private:
+  const Attempt& attempt_;
+  double tolerance_;
+};
+
+/// Levenberg-Marquardt on the residuals.
+class TrustRegion final : public Solver {
+ public:
+  explicit TrustRegion(const LeastSquaresOptions& options) : options_(options) {}
+
+  Solution solve(const Problem& problem) const override {
+    if (refuses(problem)) return refused(problem);
+    Attempt attempt(problem, options_);
+    if (!attempt.open()) return attempt.finish(0, "");
+
+    const LeastSquares& structure = *problem.least_squares;
+    Problem::Vector y = attempt.start();
+    Trials trials(attempt, y.data());
+    ceres::Problem::Options problem_options;
+    problem_options.evaluation_callback = &trials;
+    ceres::Problem posed(problem_options);
+    for (int b = 0; b < structure.residuals->blocks(); ++b) {
+      posed.AddResidualBlock(new Block(attempt, b, structure.residuals->block_size()),
+                             new WeightedLoss(structure, structure.weight(b)), y.data());
+    }
+    if (attempt.bounded()) {
+      const Problem::Vector lower = attempt.lower(), upper = attempt.upper();
+      for (int k = 0; k < attempt.unknowns(); ++k) {
+        posed.SetParameterLowerBound(y.data(), k, lower[k]);
+        posed.SetParameterUpperBound(y.data(), k, upper[k]);
+      }
+    }
+    ShortStep short_step(attempt, options_.x_tolerance_m);
+    ceres::Solver::Options options;
+    options.linear_solver_type = ceres::DENSE_QR;
+    options.logging_type = ceres::SILENT;
+    options.max_num_iterations = static_cast<int>(options_.max_evaluations);
+    options.function_tolerance = 0.0;
+    options.gradient_tolerance = 0.0;
+    options.parameter_tolerance = 0.0;
+    options.callbacks.push_back(&short_step);
+    ceres::Solver::Summary summary;
+    ceres::Solve(options, &posed, &summary);
+    return attempt.finish(summary.termination_type,
+                          ceres::TerminationTypeToString(summary.termination_type));
+  }
+
+  std::optional<std::string> refuses(const Problem& problem) const override {
+    if (!problem.least_squares) return "needs residuals: the cost is no sum of squares";
+    if (problem.constraints) return "takes no constraints";
+    return std::nullopt;
+  }
+
+ private:
+  LeastSquaresOptions options_;
+};
+
+const Enrol<Solver, LeastSquaresOptions> enrolled{
+    "ceres_least_squares", "Ceres: Levenberg-Marquardt on residuals, with robust losses",
+    [](const LeastSquaresOptions& options) { return std::make_unique<TrustRegion>(options); }};
+
+}  // namespace
+}  // namespace shoal::solvers

@@ -1,0 +1,82 @@
+#include <algorithm>
+
+#include "shoal/solvers/smooth/attempt.hpp"
+
+namespace shoal::solvers {
+namespace {
+
+using Vector = Problem::Vector;
+
+struct GridOptions : GlobalLimits {
+  std::int64_t points_per_axis = 41;
+
+  GridOptions() { max_evaluations = 1'000'000; }
+
+  static void declare(Options<GridOptions>& o) {
+    declare_limits(o);
+    o.integer("points_per_axis", &GridOptions::points_per_axis, "", in(5, 1e5),
+              "points along each unknown, at every level");
+  }
+};
+
+/// Tries every point of a grid over the whole box, then of a finer one about the best, until the
+/// mesh is as fine as the tolerance: slow, and hard to mislead. An oracle for tests.
+class Grid final : public Solver {
+ public:
+  explicit Grid(const GridOptions& options) : options_(options) {}
+
+  Solution solve(const Problem& problem) const override {
+    if (refuses(problem)) return refused(problem);
+    Attempt attempt(problem, options_);
+    if (!attempt.open()) return attempt.finish(0, "");
+
+    const Vector lower = attempt.lower(), upper = attempt.upper();
+    Vector low = lower, high = upper;
+    while (visit_all(attempt, low, high)) {
+      const Vector mesh = (high - low) / static_cast<double>(options_.points_per_axis - 1);
+      if (mesh.maxCoeff() <= options_.x_tolerance_m) break;
+      const Vector best = attempt.best();
+      if (!best.allFinite()) break;
+      low = (best - 2.0 * mesh).cwiseMax(lower);
+      high = (best + 2.0 * mesh).cwiseMin(upper);
+    }
+    return attempt.finish(0, "the mesh is as fine as asked, or the budget is spent");
+  }
+
+  std::optional<std::string> refuses(const Problem& problem) const override {
+    if (!problem.lower || !problem.upper ||
+        !(problem.lower->allFinite() && problem.upper->allFinite())) {
+      return "needs finite bounds: it tries the whole box";
+    }
+    return std::nullopt;
+  }
+
+ private:
+  bool visit_all(Attempt& attempt, const Vector& low, const Vector& high) const {
+    const int n = attempt.unknowns();
+    const auto last = options_.points_per_axis - 1;
+    std::int64_t index[Problem::max_dimension] = {};
+    Vector y(n);
+    for (;;) {
+      for (int i = 0; i < n; ++i) {
+        const double share = static_cast<double>(index[i]) / static_cast<double>(last);
+        y[i] = std::min(low[i] + share * (high[i] - low[i]), high[i]);
+      }
+      double cost = 0.0;
+      if (attempt.evaluate(y.data(), cost) == Attempt::Outcome::stop) return false;
+      int axis = 0;
+      while (axis < n && index[axis] == last) index[axis++] = 0;
+      if (axis == n) return true;
+      ++index[axis];
+    }
+  }
+
+  GridOptions options_;
+};
+
+const Enrol<Solver, GridOptions> enrolled{
+    "grid", "every point of a grid over the box, then of finer ones about the best: an oracle",
+    [](const GridOptions& options) { return std::make_unique<Grid>(options); }};
+
+}  // namespace
+}  // namespace shoal::solvers

@@ -1,0 +1,155 @@
+#include "shoal/solvers/smooth/minimum.hpp"
+
+#include <Eigen/Eigenvalues>
+#include <Eigen/QR>
+#include <algorithm>
+#include <vector>
+
+namespace shoal::solvers {
+namespace {
+
+constexpr int n_max = Problem::max_dimension;
+using Vector = Problem::Vector;
+using Matrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, n_max, n_max>;
+using Columns = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, n_max>;
+
+/// What holds x back: bounds it lies on and constraints that are about zero.
+struct Obstacles {
+  Columns normals;               // of the feasible side, one a column
+  std::vector<int> constraints;  // behind each column: its constraint, or -1 for a bound
+
+  void add(const Vector& normal, int constraint) {
+    normals.conservativeResize(normal.size(), normals.cols() + 1);
+    normals.col(normals.cols() - 1) = normal;
+    constraints.push_back(constraint);
+  }
+};
+
+Obstacles obstacles_at(const Problem& problem, const Vector& x, double reach) {
+  Obstacles found;
+  const Eigen::Index n = x.size();
+  found.normals.resize(n, 0);
+  for (Eigen::Index i = 0; problem.lower && i < n; ++i) {
+    if (x[i] - (*problem.lower)[i] <= reach) found.add(Vector::Unit(n, i), -1);
+    if ((*problem.upper)[i] - x[i] <= reach) found.add(-Vector::Unit(n, i), -1);
+  }
+  for (int k = 0; problem.constraints && k < problem.constraints->blocks(); ++k) {
+    double value = 0.0;
+    Vector normal(n);
+    problem.constraints->evaluate(k, x.data(), &value, normal.data(), nullptr);
+    if (value <= reach * normal.norm()) found.add(normal, k);
+  }
+  return found;
+}
+
+/// The multipliers (at least zero) that leave the least of the slope: Lawson and Hanson 1974,
+/// Solving least squares problems, ch. 23.
+Eigen::VectorXd multipliers(const Columns& normals, const Vector& slope) {
+  const Eigen::Index count = normals.cols();
+  Eigen::VectorXd best = Eigen::VectorXd::Zero(count);
+  std::vector<Eigen::Index> used;
+  const double rounding = 1e-12 * slope.norm();
+  for (Eigen::Index round = 0; round < 3 * count; ++round) {
+    const Eigen::VectorXd gain = normals.transpose() * (slope - normals * best);
+    Eigen::Index next = -1;
+    for (Eigen::Index k = 0; k < count; ++k) {
+      if (std::ranges::find(used, k) != used.end()) continue;
+      if (gain[k] > rounding * normals.col(k).norm() && (next < 0 || gain[k] > gain[next]))
+        next = k;
+    }
+    if (next < 0) break;
+    used.push_back(next);
+    while (!used.empty()) {
+      const Eigen::MatrixXd part = normals(Eigen::all, used);
+      const Eigen::VectorXd fit = part.completeOrthogonalDecomposition().solve(slope);
+      if (fit.minCoeff() > 0.0) {
+        best.setZero();
+        for (std::size_t k = 0; k < used.size(); ++k)
+          best[used[k]] = fit[static_cast<Eigen::Index>(k)];
+        break;
+      }
+      double share = 1.0;  // as far towards the fit as all stay at least zero
+      for (std::size_t k = 0; k < used.size(); ++k) {
+        const double to = fit[static_cast<Eigen::Index>(k)];
+        const double from = best[used[k]];
+        if (to <= 0.0) share = std::min(share, from > to ? from / (from - to) : 0.0);
+      }
+      for (std::size_t k = 0; k < used.size(); ++k) {
+        double& value = best[used[k]];
+        value += share * (fit[static_cast<Eigen::Index>(k)] - value);
+      }
+      std::erase_if(used, [&](Eigen::Index k) {
+        const bool out = best[k] <= 1e-300;
+        if (out) best[k] = 0.0;
+        return out;
+      });
+    }
+  }
+  return best;
+}
+
+}  // namespace
+
+double bounds_violation(const Problem& problem, const Vector& x) {
+  if (!problem.lower) return 0.0;
+  return std::max({0.0, (*problem.lower - x).maxCoeff(), (x - *problem.upper).maxCoeff()});
+}
+
+double constraint_violation(const Problem& problem, const Vector& x) {
+  double worst = 0.0;
+  for (int k = 0; problem.constraints && k < problem.constraints->blocks(); ++k) {
+    double value = 0.0;
+    problem.constraints->evaluate(k, x.data(), &value, nullptr, nullptr);
+    if (!(value >= -worst)) worst = -value;  // NaN, too
+  }
+  return worst;
+}
+
+bool is_local_minimum(const Problem& problem, const Vector& x, double x_tolerance_m,
+                      double steepest) {
+  constexpr double flat = 1e-6;
+  constexpr double slack = 10.0;  // the backends bound their last step, not the error
+  constexpr double rounding = 1e-8;
+  const Eigen::Index n = x.size();
+  Vector slope(n);
+  Matrix curvature(n, n);
+  problem.evaluate(x.data(), slope.data(), curvature.data());
+  if (!slope.allFinite() || !curvature.allFinite()) return false;
+
+  Matrix surface = Matrix::Identity(n, n);  // columns span the directions along the obstacles
+  if (problem.lower || problem.constraints) {
+    const Obstacles obstacles = obstacles_at(problem, x, slack * x_tolerance_m);
+    const Eigen::VectorXd pressure = multipliers(obstacles.normals, slope);
+    std::vector<Eigen::Index> pressing;
+    for (Eigen::Index k = 0; k < pressure.size(); ++k) {
+      if (!(pressure[k] > 0.0)) continue;
+      pressing.push_back(k);
+      slope -= pressure[k] * obstacles.normals.col(k);
+      const int constraint = obstacles.constraints[static_cast<std::size_t>(k)];
+      if (constraint < 0) continue;
+      double value = 0.0;
+      Matrix bend(n, n);
+      problem.constraints->evaluate(constraint, x.data(), &value, nullptr, bend.data());
+      curvature -= pressure[k] * bend;
+    }
+    if (!pressing.empty()) {
+      const Eigen::MatrixXd held = obstacles.normals(Eigen::all, pressing);
+      const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(held);
+      const Eigen::MatrixXd basis = qr.householderQ() * Eigen::MatrixXd::Identity(n, n);
+      surface = basis.rightCols(n - qr.rank());
+    }
+  }
+  if (surface.cols() == 0) return true;  // held in every direction
+
+  const Eigen::SelfAdjointEigenSolver<Matrix> along(surface.transpose() * curvature * surface);
+  const auto& bends = along.eigenvalues();
+  if (bends[0] < -rounding * std::max(std::abs(bends[0]), std::abs(bends[bends.size() - 1]))) {
+    return false;
+  }
+  if (slope.norm() <= flat * steepest) return true;
+  if (!(bends[0] > 0.0)) return false;
+  const Vector step = along.eigenvectors().transpose() * (surface.transpose() * slope);
+  return step.cwiseQuotient(bends).norm() <= slack * x_tolerance_m;
+}
+
+}  // namespace shoal::solvers

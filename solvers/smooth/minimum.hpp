@@ -1,0 +1,23 @@
+#pragma once
+
+#include "shoal/solvers/problem.hpp"
+
+namespace shoal::solvers {
+
+/// How far a point is outside the bounds, m.
+double bounds_violation(const Problem& problem, const Problem::Vector& x);
+
+/// How far the worst constraint is below zero, in its own unit.
+double constraint_violation(const Problem& problem, const Problem::Vector& x);
+
+/// Our own check of an answer: whether nothing is to be gained near x but by leaving the bounds or
+/// breaking a constraint.
+///
+/// With the multipliers that fit best (at least zero, for the bounds and constraints that hold x
+/// back), the slope that is left must be negligible beside `steepest`, the steepest one met, or
+/// Newton's step along the surface of these constraints about as short as `x_tolerance_m`; and the
+/// cost must not curve downwards along it, so that no saddle passes for a minimum.
+bool is_local_minimum(const Problem& problem, const Problem::Vector& x, double x_tolerance_m,
+                      double steepest);
+
+}  // namespace shoal::solvers
