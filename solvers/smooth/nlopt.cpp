@@ -31,11 +31,21 @@ struct GlobalOptions : GlobalLimits {
   std::int64_t seed = 1;
   double initial_step_m = 1.0;
 
-  static void declare(Options<GlobalOptions>& o) {
+  static void declare(Options<GlobalOptions>& o) { declare_global(o); }
+
+  template <class Declared>
+  static void declare_global(Options<Declared>& o) {
     declare_limits(o);
-    o.integer("seed", &GlobalOptions::seed, "", in(0, 4294967295.0),
+    o.integer("seed", &Declared::seed, "", in(0, 4294967295.0),
               "of the random numbers that the method draws (if it draws any)");
   }
+};
+
+/// Multi-level single linkage compares every start with all before: its time grows as their square.
+struct LinkageOptions : GlobalOptions {
+  LinkageOptions() { max_evaluations = 2000; }
+
+  static void declare(Options<LinkageOptions>& o) { declare_global(o); }
 };
 
 struct Algorithm {
@@ -215,7 +225,9 @@ void enrol(const Algorithm& algorithm) {
 
 const bool enrolled = [] {
   for (const Algorithm& algorithm : algorithms) {
-    if (algorithm.global) {
+    if (algorithm.id == NLOPT_GD_MLSL_LDS) {
+      enrol<LinkageOptions>(algorithm);
+    } else if (algorithm.global) {
       enrol<GlobalOptions>(algorithm);
     } else if (algorithm.uses_gradient) {
       enrol<LocalOptions>(algorithm);
