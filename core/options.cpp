@@ -48,7 +48,7 @@ void read_options(const Schema& schema, void* object, const Setting& table,
       throw InputError(value.origin,
                        owner + " has no option \"" + name + '"' + suggestion(name, schema.names()));
     }
-    option->read(object, value, path.empty() ? name : path + "." + name);
+    option->read(object, value, dotted(path, name));
   }
 }
 

@@ -10,6 +10,74 @@ std::vector<const RegistryBase*>& directory() {
   return all;
 }
 
+/// What may be written after `prefix` (dotted, or empty): the rest of every member's name.
+std::vector<std::string> names_below(const RegistryBase& registry, const std::string& prefix) {
+  std::vector<std::string> rests;
+  for (const MemberInfo& member : registry.members()) {
+    if (member.name.starts_with(prefix)) rests.push_back(member.name.substr(prefix.size()));
+  }
+  return rests;
+}
+
+/// Also the first parts of dotted names (`nlopt`) may be what was meant, but the list of what is
+/// known names members only.
+std::string suggested_name(const std::string& wrong, const std::vector<std::string>& names) {
+  std::vector<std::string> parts = names;
+  for (const std::string& name : names) parts.push_back(name.substr(0, name.find('.')));
+  const std::string close = suggestion(wrong, parts);
+  return close.starts_with("; did") ? close : suggestion(wrong, names);
+}
+
+/// Puts the tables of members, checked, into `tables` under their whole names. `prefix` is the
+/// part of those names that `value` stands for: `nlopt.` or nothing.
+void gather(const RegistryBase& registry, const Setting& value, const std::string& key,
+            const std::string& prefix, Setting& tables) {
+  const std::string path = key + (prefix.empty() ? "" : "." + prefix.substr(0, prefix.size() - 1));
+  for (const auto& [part, entry] : value.table()) {
+    if (part == "kind" && prefix.empty()) continue;
+    const std::string name = prefix + part;
+    if (const MemberInfo* member = registry.find(name)) {
+      // `"nlopt.lbfgs"` beside `nlopt.lbfgs` would be two tables for one member.
+      if (part.find('.') != std::string::npos) {
+        throw InputError(entry.origin, path + " has no option \"" + part + "\"; write " + path +
+                                           "." + part + " without quotes");
+      }
+      member->check(entry, path + "." + part);
+      tables.at_or_new(name) = entry;
+    } else if (!registry.has_below(name)) {
+      std::vector<std::string> known = names_below(registry, prefix);
+      if (prefix.empty()) known.emplace_back("kind");
+      throw InputError(entry.origin,
+                       path + " has no option \"" + part + '"' + suggested_name(part, known));
+    } else if (!entry.is_table()) {
+      throw InputError(entry.origin, path + "." + part + " is " + std::string(entry.type_name()) +
+                                         "; it takes a table of options");
+    } else {
+      gather(registry, entry, key, name + ".", tables);
+    }
+  }
+}
+
+std::string key_of(const RegistryBase& family, const Schema& schema, const std::string& path,
+                   std::vector<const RegistryBase*>& walked) {
+  for (const Option& option : schema.options) {
+    const std::string key = dotted(path, option.name);
+    if (option.choice == &family) return key;
+    if (option.table) {
+      const std::string deeper = key_of(family, *option.table, key, walked);
+      if (!deeper.empty()) return deeper;
+    }
+    // Members may choose from their own family: a family that was walked once has nothing new.
+    if (!option.choice || std::ranges::find(walked, option.choice) != walked.end()) continue;
+    walked.push_back(option.choice);
+    for (const MemberInfo& member : option.choice->members()) {
+      const std::string deeper = key_of(family, member.schema(), key + "." + member.name, walked);
+      if (!deeper.empty()) return deeper;
+    }
+  }
+  return "";
+}
+
 }  // namespace
 
 RegistryBase::RegistryBase(std::string family, std::string meaning)
@@ -23,10 +91,21 @@ std::vector<std::string> RegistryBase::names() const {
   return names;
 }
 
+const MemberInfo* RegistryBase::find(std::string_view name) const {
+  const auto found = std::ranges::find(members_, name, &MemberInfo::name);
+  return found == members_.end() ? nullptr : &*found;
+}
+
+bool RegistryBase::has_below(std::string_view name) const {
+  const std::string prefix = std::string(name) + ".";
+  return std::ranges::any_of(
+      members_, [&](const MemberInfo& member) { return member.name.starts_with(prefix); });
+}
+
 std::size_t RegistryBase::index_of(std::string_view name, const Origin& origin,
                                    const std::string& key) const {
-  for (std::size_t i = 0; i < members_.size(); ++i) {
-    if (members_[i].name == name) return i;
+  if (const MemberInfo* found = find(name)) {
+    return static_cast<std::size_t>(found - members_.data());
   }
   throw InputError(origin, (key.empty() ? "" : key + ": ") + "there is no " + family_ + " \"" +
                                std::string(name) + '"' + suggestion(name, names()));
@@ -38,6 +117,12 @@ std::size_t RegistryBase::insert(MemberInfo info) {
     throw std::logic_error("two members of the family \"" + family_ + "\" are called \"" +
                            info.name + '"');
   }
+  for (const MemberInfo& member : members_) {
+    if (member.name.starts_with(info.name + ".") || info.name.starts_with(member.name + ".")) {
+      throw std::logic_error("the options of \"" + member.name + "\" and \"" + info.name +
+                             "\" of the family \"" + family_ + "\" would mix in one table");
+    }
+  }
   const auto index = static_cast<std::size_t>(place - members_.begin());
   members_.insert(place, std::move(info));
   return index;
@@ -47,6 +132,11 @@ std::vector<const RegistryBase*> families() {
   std::vector<const RegistryBase*> sorted = directory();
   std::ranges::sort(sorted, {}, &RegistryBase::family);
   return sorted;
+}
+
+std::string key_of(const RegistryBase& family, const Schema& schema) {
+  std::vector<const RegistryBase*> walked;
+  return key_of(family, schema, "", walked);
 }
 
 void ChoiceSetting::read(const RegistryBase& registry, const Setting& value,
@@ -67,20 +157,7 @@ void ChoiceSetting::read(const RegistryBase& registry, const Setting& value,
     kind = *name;
     origin = given->origin;
   }
-  for (const auto& [name, table] : value.table()) {
-    if (name == "kind") continue;
-    const auto names = registry.names();
-    const auto found = std::ranges::find(names, name);
-    if (found == names.end()) {
-      std::vector<std::string> known = names;
-      known.emplace_back("kind");
-      throw InputError(table.origin,
-                       key + " has no option \"" + name + '"' + suggestion(name, known));
-    }
-    registry.members()[static_cast<std::size_t>(found - names.begin())].check(table,
-                                                                              key + "." + name);
-    tables.at_or_new(name) = table;
-  }
+  gather(registry, value, key, "", tables);
   // A kind without a table has all its defaults; its complaints point at the choice.
   tables.origin = origin;
   tables.at_or_new(kind);
@@ -93,7 +170,7 @@ Setting ChoiceSetting::write(const RegistryBase& registry) const {
     const Setting* given = tables.find(member.name);
     if (member.name != kind && !given) continue;
     const Setting complete = member.complete(given ? *given : Setting{}, path + "." + member.name);
-    if (!complete.table().empty()) table.at_or_new(member.name) = complete;
+    if (!complete.table().empty()) assign(table, member.name, complete);
   }
   return table;
 }

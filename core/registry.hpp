@@ -15,7 +15,7 @@ namespace shoal {
 
 /// What is known of one member of a family without its type.
 struct MemberInfo {
-  std::string name;
+  std::string name;     ///< may be dotted (`nlopt.lbfgs`): its options then sit in nested tables
   std::string summary;  ///< one line: what it does, and its source
   const Schema& (*schema)();
   /// Reads the options of this member and throws InputError if they are wrong.
@@ -38,10 +38,16 @@ class RegistryBase {
   const std::vector<MemberInfo>& members() const { return members_; }
   std::vector<std::string> names() const;
 
+  /// The member of that name, or nullptr.
+  const MemberInfo* find(std::string_view name) const;
+  /// Whether members are called `name.something`.
+  bool has_below(std::string_view name) const;
+
   /// Throws InputError, naming the known members, if there is none of that name.
   std::size_t index_of(std::string_view name, const Origin& origin, const std::string& key) const;
 
  protected:
+  /// Throws std::logic_error if the name is taken, or is a dotted prefix of another.
   std::size_t insert(MemberInfo info);
 
  private:
@@ -52,6 +58,10 @@ class RegistryBase {
 
 /// All families that something is enrolled in, sorted by name.
 std::vector<const RegistryBase*> families();
+
+/// The dotted key at which a struct, or what can be chosen in it, first chooses from the family
+/// (`behaviour.attraction_repulsion.solver`); "" if nothing does.
+std::string key_of(const RegistryBase& family, const Schema& schema);
 
 /// name -> factory. `Family::family` names it, `Family::family_meaning` says what it is.
 template <class Family>
@@ -116,7 +126,7 @@ struct Enrol {
 /// (so that `--set behaviour.kind=...` finds its options in the same file).
 struct ChoiceSetting {
   std::string kind;
-  Setting tables;    ///< kind -> table of its options
+  Setting tables;    ///< kind, dotted or not -> table of its options
   std::string path;  ///< dotted name of the choice, for messages
   Origin origin;
 

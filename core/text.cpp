@@ -29,6 +29,11 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
 
 std::string suggestion(std::string_view wrong, std::span<const std::string> known) {
   if (known.empty()) return "; none is known here";
+  std::vector<std::string> longer;
+  for (const std::string& name : known) {
+    if (name.starts_with(std::string(wrong) + ".")) longer.push_back(name);
+  }
+  if (!longer.empty()) return "; did you mean one of " + listed(longer) + "?";
   const auto closest = std::ranges::min_element(
       known, {}, [wrong](const std::string& name) { return edit_distance(wrong, name); });
   const std::size_t tolerated = 1 + std::max(wrong.size(), closest->size()) / 3;
@@ -37,6 +42,10 @@ std::string suggestion(std::string_view wrong, std::span<const std::string> know
       known, [wrong](const std::string& name) { return name.starts_with(wrong); });
   if (wrong.size() >= 3 && begun != known.end()) return "; did you mean \"" + *begun + "\"?";
   return "; known are " + listed(known);
+}
+
+std::string dotted(const std::string& path, const std::string& name) {
+  return path.empty() ? name : path + "." + name;
 }
 
 std::string shortest(double number) {

@@ -8,11 +8,15 @@
 
 namespace shoal {
 
-/// `; did you mean "x"?` with the closest known name, or the list of them if none is close.
+/// `; did you mean "x"?` with the closest known name, or those that go on behind a dot where the
+/// wrong one ends, or the list of all if none is close.
 std::string suggestion(std::string_view wrong, std::span<const std::string> known);
 
 /// The shortest decimal that reads back as the same number: `0.1`, `300`, `1e-05`.
 std::string shortest(double number);
+
+/// `path.name`, or the name alone where there is no path.
+std::string dotted(const std::string& path, const std::string& name);
 
 /// `a, b and c`.
 std::string listed(std::span<const std::string> words);

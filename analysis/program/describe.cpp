@@ -19,10 +19,6 @@ std::string value_text(const Setting& value) {
   return std::string(trimmed(text.substr(text.find('=') + 1)));
 }
 
-std::string joined(const std::string& path, const std::string& name) {
-  return path.empty() ? name : path + "." + name;
-}
-
 std::string accepted(const Option& option) {
   const std::string range = option.range_text();
   if (option.type == "a number" && range.starts_with("any")) return range;
@@ -58,29 +54,13 @@ void print_entry(const Option& option, const Setting& fallback, const std::strin
 
 void print_schema(const Schema& schema, const std::string& path) {
   for (const Option& option : schema.options) {
-    print_entry(option, *schema.defaults.find(option.name), joined(path, option.name));
+    print_entry(option, *schema.defaults.find(option.name), dotted(path, option.name));
   }
 }
 
 void print_member(const RegistryBase& family, const MemberInfo& member, const std::string& path) {
   fmt::print("{} ({}): {}\n", member.name, family.family(), member.summary);
   print_schema(member.schema(), path);
-}
-
-/// The key under which a scenario first chooses from a family, as `behaviour`; "" if none does.
-std::string key_of(const RegistryBase& family, const Schema& schema, const std::string& path) {
-  for (const Option& option : schema.options) {
-    const std::string key = joined(path, option.name);
-    if (option.choice == &family) return key;
-    std::string deeper = option.table ? key_of(family, *option.table, key) : "";
-    if (option.choice) {
-      for (const MemberInfo& member : option.choice->members()) {
-        if (deeper.empty()) deeper = key_of(family, member.schema(), key + "." + member.name);
-      }
-    }
-    if (!deeper.empty()) return deeper;
-  }
-  return "";
 }
 
 /// Walks a dotted key from the scenario's root. Throws InputError at the first unknown part.
@@ -96,9 +76,13 @@ void describe_key(const std::string& key) {
     if (choice && part == "kind" && last) return print_choice(*choice, *fallback, walked);
     if (choice) {
       const RegistryBase& family = *choice->choice;
-      const MemberInfo& member = family.members()[family.index_of(part, {}, walked)];
-      walked += "." + part;
-      if (last) return print_member(family, member, walked);
+      std::string name = part;
+      while (!family.find(name) && family.has_below(name) && i + 1 < parts.size()) {
+        name += "." + std::string(parts[++i]);
+      }
+      const MemberInfo& member = family.members()[family.index_of(name, {}, walked)];
+      walked += "." + name;
+      if (i + 1 == parts.size()) return print_member(family, member, walked);
       schema = &member.schema();
       choice = nullptr;
       continue;
@@ -109,7 +93,7 @@ void describe_key(const std::string& key) {
       throw InputError(owner + " has no option \"" + part + '"' +
                        suggestion(part, schema->names()));
     }
-    walked = joined(walked, part);
+    walked = dotted(walked, part);
     fallback = schema->defaults.find(part);
     if (last) return print_entry(*option, *fallback, walked);
     if (option->choice) {
@@ -130,8 +114,8 @@ bool describe_members(const std::string& name, std::vector<std::string>& known) 
     for (const MemberInfo& member : family->members()) {
       known.push_back(member.name);
       if (member.name != name) continue;
-      const std::string key = key_of(*family, schema_of<scenarios::Scenario>(), "");
-      print_member(*family, member, joined(key, name));
+      const std::string key = key_of(*family, schema_of<scenarios::Scenario>());
+      print_member(*family, member, dotted(key, name));
       found = true;
     }
   }
@@ -151,14 +135,17 @@ bool describe_scenario(const std::string& name, std::vector<std::string>& known)
 
 void describe(const std::string& name) {
   const Schema& root = schema_of<scenarios::Scenario>();
-  if (name.find('.') != std::string::npos) return describe_key(name);
-
-  bool found = root.find(name) != nullptr;
+  const std::string first = name.substr(0, name.find('.'));
+  bool found = root.find(first) != nullptr;
   if (found) describe_key(name);
   std::vector<std::string> known = root.names();
   found |= describe_members(name, known);
   found = found || describe_scenario(name, known);
   if (found) return;
+  // What begins like a key is one that is wrong, unless members are called like that.
+  const bool begins_a_member = std::ranges::any_of(
+      known, [&](const std::string& other) { return other.starts_with(first + "."); });
+  if (first != name && !begins_a_member) return describe_key(name);
   const std::string close = suggestion(name, known);
   throw InputError("nothing is called \"" + name + '"' +
                    (close.starts_with("; did") ? close : "; shoal list shows all names"));

@@ -83,8 +83,8 @@ const auto made =
     [](const CeresOptions& options) { return std::make_unique<LineSearch<direction>>(options); };
 
 const Enrol<Solver, CeresOptions> enrolled[] = {
-    {"ceres_lbfgs", "Ceres: limited-memory BFGS", made<ceres::LBFGS>},
-    {"ceres_bfgs", "Ceres: BFGS", made<ceres::BFGS>}};
+    {"ceres.lbfgs", "Ceres: limited-memory BFGS", made<ceres::LBFGS>},
+    {"ceres.bfgs", "Ceres: BFGS", made<ceres::BFGS>}};
 
 }  // namespace
 }  // namespace shoal::solvers

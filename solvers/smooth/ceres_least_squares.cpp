@@ -134,7 +134,7 @@ class TrustRegion final : public Solver {
 };
 
 const Enrol<Solver, LeastSquaresOptions> enrolled{
-    "ceres_least_squares", "Ceres: Levenberg-Marquardt on residuals, with robust losses",
+    "ceres.least_squares", "Ceres: Levenberg-Marquardt on residuals, with robust losses",
     [](const LeastSquaresOptions& options) { return std::make_unique<TrustRegion>(options); }};
 
 }  // namespace

@@ -1,5 +1,6 @@
 #include <nlopt.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -29,6 +30,7 @@ struct ProbingOptions : LocalOptions {
 
 struct GlobalOptions : GlobalLimits {
   std::int64_t seed = 1;
+  std::int64_t polish_evaluations = 100;
   double initial_step_m = 1.0;
 
   static void declare(Options<GlobalOptions>& o) { declare_global(o); }
@@ -38,6 +40,10 @@ struct GlobalOptions : GlobalLimits {
     declare_limits(o);
     o.integer("seed", &Declared::seed, "", in(0, 4294967295.0),
               "of the random numbers that the method draws (if it draws any)");
+    o.integer(
+        "polish_evaluations", &Declared::polish_evaluations, "", in(0, 1e9),
+        "kept of the budget (up to half of it) to go from the best point found to the nearest "
+        "minimum, by SLSQP: the methods for a whole box come close, and no closer");
   }
 };
 
@@ -59,34 +65,34 @@ struct Algorithm {
 };
 
 constexpr std::array algorithms{
-    Algorithm{"nlopt_lbfgs", NLOPT_LD_LBFGS, true, false, false, 1, "NLopt: limited-memory BFGS"},
-    Algorithm{"nlopt_slsqp", NLOPT_LD_SLSQP, true, true, false, 1,
+    Algorithm{"nlopt.lbfgs", NLOPT_LD_LBFGS, true, false, false, 1, "NLopt: limited-memory BFGS"},
+    Algorithm{"nlopt.slsqp", NLOPT_LD_SLSQP, true, true, false, 1,
               "NLopt: sequential quadratic programming"},
-    Algorithm{"nlopt_mma", NLOPT_LD_MMA, true, true, false, 1,
+    Algorithm{"nlopt.mma", NLOPT_LD_MMA, true, true, false, 1,
               "NLopt: method of moving asymptotes"},
-    Algorithm{"nlopt_ccsaq", NLOPT_LD_CCSAQ, true, true, false, 1,
+    Algorithm{"nlopt.ccsaq", NLOPT_LD_CCSAQ, true, true, false, 1,
               "NLopt: conservative convex separable quadratic approximations"},
-    Algorithm{"nlopt_tnewton", NLOPT_LD_TNEWTON, true, false, false, 1, "NLopt: truncated Newton"},
-    Algorithm{"nlopt_var2", NLOPT_LD_VAR2, true, false, false, 1, "NLopt: variable metric, rank 2"},
-    Algorithm{"nlopt_bobyqa", NLOPT_LN_BOBYQA, false, false, false, 2,
+    Algorithm{"nlopt.tnewton", NLOPT_LD_TNEWTON, true, false, false, 1, "NLopt: truncated Newton"},
+    Algorithm{"nlopt.var2", NLOPT_LD_VAR2, true, false, false, 1, "NLopt: variable metric, rank 2"},
+    Algorithm{"nlopt.bobyqa", NLOPT_LN_BOBYQA, false, false, false, 2,
               "NLopt: quadratic models without derivatives (used by Rypkema 2015)"},
-    Algorithm{"nlopt_cobyla", NLOPT_LN_COBYLA, false, true, false, 1,
+    Algorithm{"nlopt.cobyla", NLOPT_LN_COBYLA, false, true, false, 1,
               "NLopt: linear models without derivatives"},
-    Algorithm{"nlopt_neldermead", NLOPT_LN_NELDERMEAD, false, false, false, 1,
+    Algorithm{"nlopt.neldermead", NLOPT_LN_NELDERMEAD, false, false, false, 1,
               "NLopt: Nelder-Mead simplex"},
-    Algorithm{"nlopt_sbplx", NLOPT_LN_SBPLX, false, false, false, 1,
+    Algorithm{"nlopt.sbplx", NLOPT_LN_SBPLX, false, false, false, 1,
               "NLopt: Subplex, simplices on subspaces"},
-    Algorithm{"nlopt_praxis", NLOPT_LN_PRAXIS, false, false, false, 1,
+    Algorithm{"nlopt.praxis", NLOPT_LN_PRAXIS, false, false, false, 1,
               "NLopt: principal axes, without derivatives"},
-    Algorithm{"nlopt_direct_l", NLOPT_GN_DIRECT_L, false, false, true, 1,
+    Algorithm{"nlopt.direct_l", NLOPT_GN_DIRECT_L, false, false, true, 1,
               "NLopt: dividing rectangles, in a box"},
-    Algorithm{"nlopt_crs2", NLOPT_GN_CRS2_LM, false, false, true, 1,
+    Algorithm{"nlopt.crs2", NLOPT_GN_CRS2_LM, false, false, true, 1,
               "NLopt: controlled random search with local mutation, in a box"},
-    Algorithm{"nlopt_isres", NLOPT_GN_ISRES, false, true, true, 1,
+    Algorithm{"nlopt.isres", NLOPT_GN_ISRES, false, true, true, 1,
               "NLopt: evolution strategy with stochastic ranking, in a box"},
-    Algorithm{"nlopt_mlsl", NLOPT_GD_MLSL_LDS, true, false, true, 1,
+    Algorithm{"nlopt.mlsl", NLOPT_GD_MLSL_LDS, true, false, true, 1,
               "NLopt: L-BFGS from low-discrepancy starts, in a box"},
-    Algorithm{"nlopt_stogo", NLOPT_GD_STOGO, true, false, true, 1,
+    Algorithm{"nlopt.stogo", NLOPT_GD_STOGO, true, false, true, 1,
               "NLopt: branch and bound with local searches, in a box"},
 };
 
@@ -97,7 +103,26 @@ class Run {
 
   template <class SomeOptions>
   Solution solve(const SomeOptions& options) {
-    const Handle owner = made(algorithm_.id, options);
+    std::int64_t kept = 0;
+    if constexpr (requires { options.polish_evaluations; }) {
+      kept = std::min(options.polish_evaluations, options.max_evaluations / 2);
+    }
+    nlopt_result result = minimise(algorithm_.id, attempt_.start(), options, kept);
+    if (kept > 0 && !stopped_) {
+      result = minimise(NLOPT_LD_SLSQP, attempt_.best(), options, 0);
+    }
+    const char* says = nlopt_result_to_string(result);
+    return attempt_.finish(static_cast<int>(result), says ? says : "");
+  }
+
+ private:
+  using Handle = std::unique_ptr<nlopt_opt_s, decltype(&nlopt_destroy)>;
+
+  template <class SomeOptions>
+  nlopt_result minimise(nlopt_algorithm id, Vector x, const SomeOptions& options,
+                        std::int64_t kept) {
+    const std::int64_t evaluations = options.max_evaluations - kept;
+    const Handle owner = made(id, options, evaluations);
     backend_ = owner.get();
     nlopt_set_min_objective(backend_, &Run::cost, this);
     if (attempt_.bounded()) {
@@ -108,27 +133,21 @@ class Run {
       nlopt_add_inequality_mconstraint(backend_, static_cast<unsigned>(attempt_.constraints()),
                                        &Run::constraints, this, nullptr);
     }
-    if (algorithm_.id == NLOPT_GD_MLSL_LDS) {
-      const Handle local = made(NLOPT_LD_LBFGS, options);
+    if (id == NLOPT_GD_MLSL_LDS) {
+      const Handle local = made(NLOPT_LD_LBFGS, options, evaluations);
       nlopt_set_local_optimizer(backend_, local.get());
     }
     // What is drawn belongs to this solve: the same problem shall give the same answer.
     nlopt_srand(static_cast<unsigned long>(options.seed));
     double lowest = 0.0;
-    Vector x = attempt_.start();
-    const nlopt_result result = nlopt_optimize(backend_, x.data(), &lowest);
-    const char* says = nlopt_result_to_string(result);
-    return attempt_.finish(static_cast<int>(result), says ? says : "");
+    return nlopt_optimize(backend_, x.data(), &lowest);
   }
 
- private:
-  using Handle = std::unique_ptr<nlopt_opt_s, decltype(&nlopt_destroy)>;
-
   template <class SomeOptions>
-  Handle made(nlopt_algorithm id, const SomeOptions& options) const {
+  Handle made(nlopt_algorithm id, const SomeOptions& options, std::int64_t evaluations) const {
     Handle handle(nlopt_create(id, static_cast<unsigned>(attempt_.unknowns())), &nlopt_destroy);
     if (!handle) throw std::bad_alloc();
-    nlopt_set_maxeval(handle.get(), static_cast<int>(options.max_evaluations));
+    nlopt_set_maxeval(handle.get(), static_cast<int>(evaluations));
     nlopt_set_xtol_abs1(handle.get(), options.x_tolerance_m);
     if (!algorithm_.uses_gradient && !algorithm_.global) {
       nlopt_set_initial_step1(handle.get(), options.initial_step_m);

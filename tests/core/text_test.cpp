@@ -19,6 +19,12 @@ TEST(Text, SuggestsACloseNameAndListsThemWhenNoneIsClose) {
   EXPECT_EQ(suggestion("x", Words{}), "; none is known here");
 }
 
+TEST(Text, SuggestsEveryNameThatGoesOnBehindADot) {
+  const Words known{"hand.drill", "hand.saw", "handle"};
+  EXPECT_EQ(suggestion("hand", known), "; did you mean one of hand.drill and hand.saw?");
+  EXPECT_EQ(suggestion("handl", known), "; did you mean \"handle\"?");
+}
+
 TEST(Text, ListsWordsAsASentenceDoes) {
   EXPECT_EQ(listed(Words{}), "");
   EXPECT_EQ(listed(Words{"a"}), "a");
