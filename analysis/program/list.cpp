@@ -20,18 +20,27 @@ void list_family(const RegistryBase& family) {
   }
 }
 
+/// `solvers`, `losses`: what one also calls the family of a solver, of a loss.
+std::string plural(const std::string& family) {
+  return family + (family.ends_with('s') ? "es" : "s");
+}
+
 }  // namespace
 
 void list(const std::string& wanted) {
-  std::vector<std::string> known{"scenario"};
-  for (const RegistryBase* family : families()) known.push_back(family->family());
-  if (!wanted.empty() && std::ranges::find(known, wanted) == known.end()) {
-    throw InputError("there is no family \"" + wanted + '"' + suggestion(wanted, known));
-  }
+  std::vector<std::string> known;
+  bool found = false;
+  const auto asked_for = [&](const std::string& family) {
+    known.push_back(family);
+    const bool asked = wanted.empty() || wanted == family || wanted == plural(family);
+    found |= asked;
+    return asked;
+  };
   for (const RegistryBase* family : families()) {
-    if (wanted.empty() || family->family() == wanted) list_family(*family);
+    if (asked_for(family->family())) list_family(*family);
   }
-  if (wanted.empty() || wanted == "scenario") list_scenarios();
+  if (asked_for("scenario")) list_scenarios();
+  if (!found) throw InputError("there is no family \"" + wanted + '"' + suggestion(wanted, known));
 }
 
 }  // namespace shoal::program

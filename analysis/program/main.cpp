@@ -77,13 +77,13 @@ int main(int argc, char** argv) {
 
   std::string family;
   CLI::App* list_command = app.add_subcommand("list", "List what there is");
-  list_command->add_option("family", family, "scenario, behaviour, plan, current, solver ...");
+  list_command->add_option("family", family, "scenarios, behaviours, plans, currents, solvers ...");
   list_command->callback([&] { command = [&] { shoal::program::list(family); }; });
 
   std::string name;
   CLI::App* describe_command =
       app.add_subcommand("describe", "Describe a member of a family, or an option");
-  describe_command->add_option("name", name, "a name (rigid_registration) or a key (ping.period_s)")
+  describe_command->add_option("name", name, "a name (nlopt.lbfgs) or a key (ping.period_s)")
       ->required();
   describe_command->callback([&] { command = [&] { shoal::program::describe(name); }; });
 

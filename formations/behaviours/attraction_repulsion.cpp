@@ -66,7 +66,7 @@ struct AttractionRepulsionOptions {
   Combination combination = Combination::sum;
   Centroid centroid = Centroid::neighbours;
   Choice<Potential> potential{"thesis"};
-  Choice<solvers::Solver> solver{"nlopt_lbfgs"};
+  Choice<solvers::Solver> solver{"nlopt.lbfgs"};
 
   static void declare(Options<AttractionRepulsionOptions>& o) {
     using A = AttractionRepulsionOptions;

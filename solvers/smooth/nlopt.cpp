@@ -42,18 +42,18 @@ struct Algorithm {
 
 // COBYLA is left out: it may never return, whatever limits are set.
 constexpr std::array algorithms{
-    Algorithm{"nlopt_lbfgs", NLOPT_LD_LBFGS, true, 1, "NLopt: limited-memory BFGS"},
-    Algorithm{"nlopt_slsqp", NLOPT_LD_SLSQP, true, 1, "NLopt: sequential quadratic programming"},
-    Algorithm{"nlopt_mma", NLOPT_LD_MMA, true, 1, "NLopt: method of moving asymptotes"},
-    Algorithm{"nlopt_ccsaq", NLOPT_LD_CCSAQ, true, 1,
+    Algorithm{"nlopt.lbfgs", NLOPT_LD_LBFGS, true, 1, "NLopt: limited-memory BFGS"},
+    Algorithm{"nlopt.slsqp", NLOPT_LD_SLSQP, true, 1, "NLopt: sequential quadratic programming"},
+    Algorithm{"nlopt.mma", NLOPT_LD_MMA, true, 1, "NLopt: method of moving asymptotes"},
+    Algorithm{"nlopt.ccsaq", NLOPT_LD_CCSAQ, true, 1,
               "NLopt: conservative convex separable quadratic approximations"},
-    Algorithm{"nlopt_tnewton", NLOPT_LD_TNEWTON, true, 1, "NLopt: truncated Newton"},
-    Algorithm{"nlopt_var2", NLOPT_LD_VAR2, true, 1, "NLopt: variable metric, rank 2"},
-    Algorithm{"nlopt_bobyqa", NLOPT_LN_BOBYQA, false, 2,
+    Algorithm{"nlopt.tnewton", NLOPT_LD_TNEWTON, true, 1, "NLopt: truncated Newton"},
+    Algorithm{"nlopt.var2", NLOPT_LD_VAR2, true, 1, "NLopt: variable metric, rank 2"},
+    Algorithm{"nlopt.bobyqa", NLOPT_LN_BOBYQA, false, 2,
               "NLopt: quadratic models without derivatives (used by Rypkema 2015)"},
-    Algorithm{"nlopt_neldermead", NLOPT_LN_NELDERMEAD, false, 1, "NLopt: Nelder-Mead simplex"},
-    Algorithm{"nlopt_sbplx", NLOPT_LN_SBPLX, false, 1, "NLopt: Subplex, simplices on subspaces"},
-    Algorithm{"nlopt_praxis", NLOPT_LN_PRAXIS, false, 1,
+    Algorithm{"nlopt.neldermead", NLOPT_LN_NELDERMEAD, false, 1, "NLopt: Nelder-Mead simplex"},
+    Algorithm{"nlopt.sbplx", NLOPT_LN_SBPLX, false, 1, "NLopt: Subplex, simplices on subspaces"},
+    Algorithm{"nlopt.praxis", NLOPT_LN_PRAXIS, false, 1,
               "NLopt: principal axes, without derivatives"},
 };
 

@@ -28,6 +28,8 @@ FILE_PLAN = '[trial]\nduration_s = 60\n[plan]\nkind = "file"\nfile.path = "plan.
 POINTS = SMALL + '[swarm.start]\nkind = "points"\n'
 RED_SEA = SMALL + '[current]\nkind = "netcdf"\nnetcdf.file = "library:currents/redsea_like.nc"\n'
 OTHER_SEA = SMALL + '[current]\nkind = "netcdf"\nnetcdf.file = "sea.nc"\n'
+REPELLED = ('behaviour.kind = "attraction_repulsion"\n' + SMALL +
+            "[behaviour.attraction_repulsion]\n")
 
 METRICS = """energy_mean_wh energy_min_wh energy_max_wh energy_propulsion_mean_wh
 energy_hotel_mean_wh energy_comms_mean_wh quality_final_m quality_settled_m time_to_quality_20m_s
@@ -87,6 +89,25 @@ BAD_SCENARIOS = [
      SMALL + '[behaviour]\nkind = "attraction_repulsion"\n'
      'attraction_repulsion = { potential.kind = "none" }\n', {},
      ["s.toml:7: ", "behaviour.attraction_repulsion.potential.kind", 'no potential "none"']),
+    ("a solver of its old name", REPELLED + 'solver.kind = "nlopt_mma"\n', {},
+     ['s.toml:7: behaviour.attraction_repulsion.solver.kind: there is no solver "nlopt_mma"; '
+      'did you mean "nlopt.mma"?\n']),
+    ("a library for a solver", REPELLED + 'solver.kind = "nlopt"\n', {},
+     ["s.toml:7: ", 'there is no solver "nlopt"; did you mean one of nlopt.bobyqa, nlopt.ccsaq, ']),
+    ("a solver of no such library", REPELLED + "solver.nlop.mma.max_evaluations = 9\n", {},
+     ['s.toml:7: behaviour.attraction_repulsion.solver has no option "nlop"; did you mean '
+      '"nlopt"?\n']),
+    ("a solver that its library has not", REPELLED + "solver.nlopt.mna.max_evaluations = 9\n", {},
+     ['s.toml:7: behaviour.attraction_repulsion.solver.nlopt has no option "mna"; did you mean '
+      '"mma"?\n']),
+    ("a solver's option that is none", REPELLED + "solver.nlopt.mma.max_evaluation = 9\n", {},
+     ['s.toml:7: behaviour.attraction_repulsion.solver.nlopt.mma has no option "max_evaluation"; '
+      'did you mean "max_evaluations"?\n']),
+    ("a solver's option out of range", REPELLED + "solver.nlopt.mma.max_evaluations = 0\n", {},
+     ["s.toml:7: behaviour.attraction_repulsion.solver.nlopt.mma.max_evaluations is 0; "]),
+    ("a solver in quotes", REPELLED + 'solver."nlopt.mma".max_evaluations = 9\n', {},
+     ['s.toml:7: behaviour.attraction_repulsion.solver has no option "nlopt.mma"; write '
+      "behaviour.attraction_repulsion.solver.nlopt.mma without quotes\n"]),
     ("an unknown word", SMALL + '[quality]\nalignment = "middle"\n', {},
      ["s.toml:6: ", 'quality.alignment has no value "middle"', "known are centroid"]),
     ("nan", SMALL + "[ping]\nperiod_s = nan\n", {}, ["s.toml:6: ", "ping.period_s is nan"]),
@@ -202,7 +223,13 @@ BAD_ARGUMENTS = [
     (["run", "ok.toml", "--seed", "1.5"], ["trial.seed is a number; it takes an integer"]),
     (["run", "ok.toml", "--threads", "0"], ["--threads", "1 to 1024"]),
     (["run", "ok.toml", "--out", ""], ["--out"]),
+    (["run", "ok.toml", "--set",
+      "behaviour.attraction_repulsion.solver.nlopt.mma.max_evaluations=0"],
+     ["--set behaviour.attraction_repulsion.solver.nlopt.mma.max_evaluations=0: behaviour."
+      "attraction_repulsion.solver.nlopt.mma.max_evaluations is 0; it takes from 1 to 1e+09\n"]),
     (["list", "behavior"], ['no family "behavior"', 'did you mean "behaviour"?']),
+    (["list", "solvres"], ['no family "solvres"', 'did you mean "solver"?']),
+    (["list", "everything"], ['no family "everything"', "known are behaviour, current, "]),
     (["describe"], ["required"]),
     (["describe", "rigid"], ['"rigid"', 'did you mean "rigid_registration"?']),
     (["describe", "quux quux"], ["shoal list"]),
@@ -210,6 +237,17 @@ BAD_ARGUMENTS = [
     (["describe", "ping.period_s.x"], ["ping.period_s is a number"]),
     (["describe", "behaviour.rigid.x"], ['did you mean "rigid_registration"?']),
     (["describe", "."], ['no option ""']),
+    (["describe", "pin.period_s"], ['a scenario has no option "pin"; did you mean "ping"?']),
+    (["describe", "nlopt.lbgfs"], ['nothing is called "nlopt.lbgfs"; did you mean "nlopt.lbfgs"?']),
+    (["describe", "nlopt"],
+     ['nothing is called "nlopt"; did you mean one of nlopt.bobyqa, ', " and nlopt.var2?"]),
+    (["describe", "nlopt_lbfgs"], ['did you mean "nlopt.lbfgs"?']),
+    (["describe", "behaviour.attraction_repulsion.solver.nlopt"],
+     ['behaviour.attraction_repulsion.solver: there is no solver "nlopt"; did you mean one of ']),
+    (["describe", "behaviour.attraction_repulsion.solver.nlopt.lbgfs.max_evaluations"],
+     ['there is no solver "nlopt.lbgfs"; did you mean "nlopt.lbfgs"?']),
+    (["describe", "behaviour.attraction_repulsion.solver.nlopt.lbfgs.evaluations"],
+     ['behaviour.attraction_repulsion.solver.nlopt.lbfgs has no option "evaluations"']),
     (["check"], ["required"]),
     (["check", "missing.toml"], ["missing.toml"]),
     (["check", "missing.csv"], ["missing.csv"]),
@@ -347,6 +385,12 @@ class Help(Desk):
             self.assertIn(f"  {name}", everything)
         self.assertNotIn("netcdf", self.say("list", "behaviour"))
 
+    def test_list_takes_a_family_in_the_plural_too(self):
+        for one, many in [("behaviour", "behaviours"), ("solver", "solvers"), ("loss", "losses"),
+                          ("scenario", "scenarios")]:
+            self.assertEqual(self.say("list", one), self.say("list", many))
+        self.assertIn("  nlopt.lbfgs ", self.say("list", "solvers"))
+
     def test_describe_a_member_says_which_keys_set_it(self):
         text = self.say("describe", "rigid_registration")
         self.assertIn("behaviour.rigid_registration.ownship_weight\n", text)
@@ -357,6 +401,19 @@ class Help(Desk):
         text = self.say("describe", key)
         self.assertTrue(text.startswith(key + "\n"))
         self.assertIn("takes a number above 0 and at most 180 deg; default 45.0", text)
+
+    def test_describe_a_member_whose_name_has_a_dot(self):
+        path = "behaviour.attraction_repulsion.solver.nlopt.lbfgs"
+        text = self.say("describe", "nlopt.lbfgs")
+        self.assertTrue(text.startswith("nlopt.lbfgs (solver): NLopt: "))
+        self.assertIn(path + ".max_evaluations\n", text)
+        self.assertEqual(self.say("describe", path), text)
+        option = self.say("describe", path + ".max_evaluations")
+        self.assertTrue(option.startswith(path + ".max_evaluations\n"))
+        self.assertIn("takes an integer from 1 to 1e+09; default ", option)
+        self.assertIn(option, text)
+        choice = self.say("describe", "behaviour.attraction_repulsion.solver.kind")
+        self.assertIn("  nlopt.bobyqa ", choice)
 
     def test_describe_a_table(self):
         text = self.say("describe", "ping")
@@ -392,6 +449,25 @@ class Help(Desk):
 
 
 class Trials(Desk):
+    def test_a_solver_whose_name_has_a_dot_is_set_from_a_file_and_by_hand(self):
+        path = "behaviour.attraction_repulsion.solver"
+        self.write("s.toml", REPELLED + 'solver.kind = "nlopt.slsqp"\n'
+                   f"[{path}.nlopt.slsqp]\nmax_evaluations = 300\n"
+                   f"[{path}.nlopt.mma]\nmax_evaluations = 30\n")
+        self.run_trial("s.toml", out="file")
+        resolved = (self.desk / "file/scenario.toml").read_text()
+        self.assertIn(f'[{path}]\nkind = "nlopt.slsqp"\n', resolved)
+        self.assertIn(f"[{path}.nlopt.slsqp]\nmax_evaluations = 300\n", resolved)
+        self.assertIn(f"[{path}.nlopt.mma]\nmax_evaluations = 30\n", resolved)
+        self.run_trial("file/scenario.toml", out="again")
+        self.assertEqual((self.desk / "again/scenario.toml").read_text(), resolved)
+
+        self.run_trial("s.toml", "--set", f"{path}.kind=nlopt.mma", "--set",
+                       f"{path}.nlopt.mma.max_evaluations=31", out="hand")
+        by_hand = (self.desk / "hand/scenario.toml").read_text()
+        self.assertIn(f'[{path}]\nkind = "nlopt.mma"\n', by_hand)
+        self.assertIn(f"[{path}.nlopt.mma]\nmax_evaluations = 31\n", by_hand)
+
     def test_a_trial_leaves_its_scenario_its_record_and_its_summary(self):
         summary = self.run_trial("redsea_square", "--set", "trial.duration_s=300")
         self.assertEqual(self.files(), {"ok.toml", "out/scenario.toml", "out/run.nc",

@@ -3,6 +3,7 @@
 #include "shoal/solvers/autodiff.hpp"
 #include "shoal/solvers/solver.hpp"
 #include "tests/formations/swarm.hpp"
+#include "tests/support/test_name.hpp"
 
 namespace shoal::formations {
 namespace {
@@ -64,7 +65,7 @@ TEST_P(EnrolledSolver, FindsThePlaceOfFigure37) {
 
 INSTANTIATE_TEST_SUITE_P(Solvers, EnrolledSolver,
                          testing::ValuesIn(Registry<solvers::Solver>::instance().names()),
-                         [](const auto& tested) { return tested.param; });
+                         [](const auto& tested) { return shoal::tests::test_name(tested.param); });
 
 // The choice of neighbours, and the centroid ----------------------------------------------------
 

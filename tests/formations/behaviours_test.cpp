@@ -6,6 +6,7 @@
 #include <thread>
 
 #include "tests/formations/swarm.hpp"
+#include "tests/support/test_name.hpp"
 
 namespace shoal::formations {
 namespace {
@@ -117,7 +118,7 @@ TEST_P(EnrolledBehaviour, GivesTwoThreadsTheSameBits) {
 
 INSTANTIATE_TEST_SUITE_P(Behaviours, EnrolledBehaviour,
                          testing::ValuesIn(Registry<Behaviour>::instance().names()),
-                         [](const auto& tested) { return tested.param; });
+                         [](const auto& tested) { return shoal::tests::test_name(tested.param); });
 
 TEST(Behaviours, HaveTheNamesOfTheThesis) {
   for (const char* name : {"attraction_repulsion", "pairwise_referencing", "rigid_registration",

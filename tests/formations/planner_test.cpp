@@ -7,6 +7,7 @@
 
 #include "tests/formations/swarm.hpp"
 #include "tests/support/allocation_count.hpp"
+#include "tests/support/test_name.hpp"
 
 namespace shoal::formations {
 namespace {
@@ -148,7 +149,7 @@ TEST_P(PlannerOf, AllocatesNothingInTheSteadyState) {
 INSTANTIATE_TEST_SUITE_P(Behaviours, PlannerOf,
                          testing::Values("rigid_registration", "pairwise_referencing",
                                          "assignment_registration"),
-                         [](const auto& tested) { return tested.param; });
+                         [](const auto& tested) { return shoal::tests::test_name(tested.param); });
 
 TEST(AllocationCount, SeesAllocationsOfLibraries) {
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "tests/support/test_name.hpp"
+
 namespace shoal::formations {
 namespace {
 
@@ -64,7 +66,7 @@ TEST_P(EnrolledPotential, PushesOutwardsInsideAndInwardsOutside) {
 
 INSTANTIATE_TEST_SUITE_P(Potentials, EnrolledPotential,
                          testing::ValuesIn(Registry<Potential>::instance().names()),
-                         [](const auto& tested) { return tested.param; });
+                         [](const auto& tested) { return shoal::tests::test_name(tested.param); });
 
 TEST(ThesisPotential, HasTheValuesOfEquation33) {
   const auto thesis = Registry<Potential>::instance().make("thesis", Setting{}, "test");

@@ -20,7 +20,7 @@ using Eigen::Vector2d;
 using Points = std::vector<Vector2d>;
 using Neighbours = std::vector<Neighbour>;
 
-/// Dotted names and values: {{"delta_theta_deg", 10.0}, {"solver.kind", "nlopt_mma"}}.
+/// Dotted names and values: {{"delta_theta_deg", 10.0}, {"solver.kind", "nlopt.mma"}}.
 using Table = std::initializer_list<std::pair<const char*, decltype(Setting::value)>>;
 
 inline std::unique_ptr<Behaviour> behaviour(std::string_view kind, Table options = {}) {

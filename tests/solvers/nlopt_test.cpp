@@ -97,8 +97,8 @@ class WrongSign final : public Objective {
 };
 
 const std::vector<std::string> names{
-    "nlopt_lbfgs", "nlopt_slsqp",  "nlopt_mma",        "nlopt_ccsaq", "nlopt_tnewton",
-    "nlopt_var2",  "nlopt_bobyqa", "nlopt_neldermead", "nlopt_sbplx", "nlopt_praxis"};
+    "nlopt.lbfgs", "nlopt.slsqp",  "nlopt.mma",        "nlopt.ccsaq", "nlopt.tnewton",
+    "nlopt.var2",  "nlopt.bobyqa", "nlopt.neldermead", "nlopt.sbplx", "nlopt.praxis"};
 const std::vector<std::string> with_gradient(names.begin(), names.begin() + 6);
 
 std::unique_ptr<Solver> solver(const std::string& name, std::int64_t max_evaluations = 500) {
@@ -200,7 +200,7 @@ TEST(Nlopt, LeavesAnUnknownAloneWhoseBoundsAreEqual) {
     problem.lower = Vector2d(-10, 0.5);
     problem.upper = Vector2d(10, 0.5);
     const Solution solution = solver(name)->solve(problem);
-    if (name == "nlopt_bobyqa") {
+    if (name == "nlopt.bobyqa") {
       EXPECT_EQ(name_of(solution.status), "bad_input") << "BOBYQA needs two unknowns";
       continue;
     }
@@ -237,9 +237,9 @@ TEST(Nlopt, KeepsToItsBudgetAndNeverEndsWorseThanItStarted) {
 }
 
 TEST(Nlopt, RefusesABudgetOfNothingAndAnyUnknownOption) {
-  EXPECT_THROW(solver("nlopt_lbfgs", 0), InputError);
-  EXPECT_THROW(solver("nlopt_lbfgs", -5), InputError);
-  EXPECT_THROW(solver("nlopt_lbgfs"), InputError);
+  EXPECT_THROW(solver("nlopt.lbfgs", 0), InputError);
+  EXPECT_THROW(solver("nlopt.lbfgs", -5), InputError);
+  EXPECT_THROW(solver("nlopt.lbgfs"), InputError);
 }
 
 TEST(Nlopt, DoesNotCallAWrongGradientConverged) {
@@ -255,7 +255,7 @@ TEST(Nlopt, SolvesProblemsOfOneUnknownOrSaysWhyNot) {
   for (const std::string& name : names) {
     const auto one = solver(name);
     const auto why_not = one->refuses(problem);
-    EXPECT_EQ(why_not.has_value(), name == "nlopt_bobyqa") << name;
+    EXPECT_EQ(why_not.has_value(), name == "nlopt.bobyqa") << name;
     const Solution solution = one->solve(problem);
     if (why_not) {
       EXPECT_EQ(name_of(solution.status), "bad_input");
