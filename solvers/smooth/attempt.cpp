@@ -17,14 +17,15 @@ using Vector = Problem::Vector;
 Attempt::Attempt(const Problem& problem, const Limits& limits)
     : problem_(problem),
       limits_(limits),
+      hemmed_in_(problem.lower || problem.upper || problem.constraints),
       point_(problem.start),
-      best_(Vector::Constant(problem.start.size(), std::numeric_limits<double>::quiet_NaN())),
-      best_cost_(std::numeric_limits<double>::quiet_NaN()) {
+      best_(Vector::Constant(problem.start.size(), std::numeric_limits<double>::quiet_NaN())) {
   wrong_ = flaw();
   if (wrong_) return;
   for (int i = 0; i < problem.dimension(); ++i) {
     if (!problem.lower || (*problem.lower)[i] < (*problem.upper)[i]) free_[free_count_++] = i;
   }
+  all_free_ = free_count_ == problem.dimension();
   open_ = free_count_ > 0;
   if (!open_) {
     double cost = 0.0;
@@ -62,17 +63,25 @@ Vector Attempt::free_part(const Vector& all) const {
   return part;
 }
 
-void Attempt::place(const double* y) {
+const double* Attempt::place(const double* y) {
+  if (all_free_) return y;
   for (int k = 0; k < free_count_; ++k) point_[free_[k]] = y[k];
+  return point_.data();
+}
+
+bool Attempt::may_go_on() {
+  stopped_ = stopped_ || evaluations_ >= limits_.max_evaluations;
+  evaluations_ += stopped_ ? 0 : 1;
+  return !stopped_;
 }
 
 template <class Function>
 Attempt::Outcome Attempt::guarded(Function function) {
-  if (must_stop()) return Outcome::stop;
   try {
     if (function()) return Outcome::fine;
   } catch (...) {
     failure_ = std::current_exception();
+    stopped_ = true;
     return Outcome::stop;
   }
   met_not_finite_ = true;
@@ -81,41 +90,50 @@ Attempt::Outcome Attempt::guarded(Function function) {
 
 Attempt::Outcome Attempt::evaluate(const double* y, double& cost, double* gradient,
                                    double* hessian) {
-  if (evaluations_ >= limits_.max_evaluations) out_of_budget_ = true;
+  if (!may_go_on()) return Outcome::stop;
   return guarded([&] {
-    ++evaluations_;
-    place(y);
-    const int n = problem_.dimension();
-    double slope[n_max], curvature[n_max * n_max];
-    cost =
-        problem_.evaluate(point_.data(), gradient ? slope : nullptr, hessian ? curvature : nullptr);
-    bool finite = std::isfinite(cost);
-    for (int k = 0; gradient && k < free_count_; ++k) {
-      gradient[k] = slope[free_[k]];
-      finite = finite && std::isfinite(gradient[k]);
+    bool finite = true;
+    if (all_free_) {
+      cost = problem_.evaluate(y, gradient, hessian);
+      finite = std::isfinite(cost);
+      for (int k = 0; hessian && k < free_count_ * free_count_; ++k) {
+        finite &= std::isfinite(hessian[k]);
+      }
+    } else {
+      finite = evaluate_some_free(y, cost, gradient, hessian);
     }
-    for (int k = 0; hessian && k < free_count_ * free_count_; ++k) {
-      hessian[k] = curvature[free_[k / free_count_] * n + free_[k % free_count_]];
-      finite = finite && std::isfinite(hessian[k]);
-    }
-    if (!finite) return false;
     if (gradient) {
       double squared = 0.0;
       for (int k = 0; k < free_count_; ++k) squared += gradient[k] * gradient[k];
-      steepest_ = std::max(steepest_, std::sqrt(squared));
+      finite &= std::isfinite(squared);
+      if (finite) steepest_squared_ = std::max(steepest_squared_, squared);
     }
-    remember(cost);
-    return true;
+    // Without bounds and constraints, most points are done with here.
+    if (finite && (hemmed_in_ || cost < best_cost_)) remember(all_free_ ? y : point_.data(), cost);
+    return finite;
   });
+}
+
+bool Attempt::evaluate_some_free(const double* y, double& cost, double* gradient, double* hessian) {
+  double slope[n_max], curvature[n_max * n_max];
+  const int n = problem_.dimension();
+  cost = problem_.evaluate(place(y), gradient ? slope : nullptr, hessian ? curvature : nullptr);
+  bool finite = std::isfinite(cost);
+  for (int k = 0; gradient && k < free_count_; ++k) gradient[k] = slope[free_[k]];
+  for (int k = 0; hessian && k < free_count_ * free_count_; ++k) {
+    hessian[k] = curvature[free_[k / free_count_] * n + free_[k % free_count_]];
+    finite &= std::isfinite(hessian[k]);
+  }
+  return finite;
 }
 
 Attempt::Outcome Attempt::constrain(int k, const double* y, double& value, double* gradient,
                                     double* hessian) {
+  if (stopped_) return Outcome::stop;
   return guarded([&] {
-    place(y);
     const int n = problem_.dimension();
     double slope[n_max], curvature[n_max * n_max];
-    problem_.constraints->evaluate(k, point_.data(), &value, gradient ? slope : nullptr,
+    problem_.constraints->evaluate(k, place(y), &value, gradient ? slope : nullptr,
                                    hessian ? curvature : nullptr);
     bool finite = std::isfinite(value);
     for (int i = 0; gradient && i < free_count_; ++i) {
@@ -130,39 +148,57 @@ Attempt::Outcome Attempt::constrain(int k, const double* y, double& value, doubl
   });
 }
 
+Attempt::Outcome Attempt::begin_residuals(const double* y) {
+  if (!may_go_on()) return Outcome::stop;
+  place(y);
+  cost_of_blocks_ = 0.0;
+  next_block_ = 0;
+  return Outcome::fine;
+}
+
 Attempt::Outcome Attempt::residuals(int block, const double* y, double* values, double* jacobian) {
+  if (stopped_) return Outcome::stop;
   return guarded([&] {
-    place(y);
     constexpr int m_max = VectorFunction::max_block_size;
-    const VectorFunction& function = *problem_.least_squares->residuals;
-    const int m = function.block_size(), n = problem_.dimension();
+    const LeastSquares& structure = *problem_.least_squares;
+    const int m = structure.residuals->block_size(), n = problem_.dimension();
+    const double* x = place(y);
     double whole[m_max * n_max];
-    function.evaluate(block, point_.data(), values, jacobian ? whole : nullptr, nullptr);
+    structure.residuals->evaluate(block, x, values, jacobian ? whole : nullptr, nullptr);
+    double squared = 0.0;
     bool finite = true;
     for (int r = 0; r < m; ++r) {
-      finite = finite && std::isfinite(values[r]);
+      squared += values[r] * values[r];
       for (int k = 0; jacobian && k < free_count_; ++k) {
         const double entry = jacobian[r * free_count_ + k] = whole[r * n + free_[k]];
-        finite = finite && std::isfinite(entry);
+        finite &= std::isfinite(entry);
       }
     }
-    return finite;
+    if (!finite || !std::isfinite(squared)) return false;
+    if (block == next_block_) {
+      cost_of_blocks_ += structure.weight(block) * structure.loss_at(squared).value;
+      if (++next_block_ == structure.residuals->blocks()) remember(x, cost_of_blocks_);
+    }
+    return true;
   });
 }
 
 // Of two points the one that breaks its constraints less is better, of two that keep to them the
 // one that costs less.
-void Attempt::remember(double cost) {
-  worst_cost_ = std::max(worst_cost_, cost);
-  const double outside = bounds_violation(problem_, point_);
-  const double broken = constraint_violation(problem_, point_);
-  if (std::isnan(broken)) return;
-  const double violation = outside > 0.0 || broken > feasibility ? std::max(outside, broken) : 0.0;
-  const bool first = std::isnan(best_cost_);
-  const bool better =
-      violation < best_violation_ || (violation == best_violation_ && cost < best_cost_);
-  if (!first && !better) return;
-  best_ = point_;
+void Attempt::remember(const double* x, double cost) {
+  double violation = 0.0;
+  if (hemmed_in_) {
+    const Eigen::Map<const Vector> here(x, point_.size());
+    const double outside = bounds_violation(problem_, here);
+    const double broken = constraint_violation(problem_, here);
+    if (std::isnan(broken)) return;
+    violation = outside > 0.0 || broken > feasibility ? std::max(outside, broken) : 0.0;
+    const bool first = best_cost_ == std::numeric_limits<double>::infinity();
+    if (!first && violation > best_violation_) return;
+    if (first || violation < best_violation_) best_cost_ = std::numeric_limits<double>::infinity();
+  }
+  if (!(cost < best_cost_)) return;
+  for (Eigen::Index i = 0; i < best_.size(); ++i) best_[i] = x[i];
   best_cost_ = cost;
   best_violation_ = violation;
 }
@@ -179,10 +215,10 @@ Solution Attempt::finish_converged(const char* says) {
 }
 
 Status Attempt::judge() const {
-  if (std::isnan(best_cost_)) return Status::diverged;
+  if (std::isinf(best_cost_)) return Status::diverged;
   if (best_violation_ > 0.0) return Status::infeasible;
   if (!open_) return Status::converged;
-  double steepest = steepest_;
+  double steepest = std::sqrt(steepest_squared_);
   if (steepest == 0.0) {  // of a method that uses no derivatives: the slope at the start will do
     Vector slope(problem_.dimension());
     problem_.evaluate(problem_.start.data(), slope.data());
@@ -197,15 +233,15 @@ Status Attempt::judge() const {
 Solution Attempt::answer(Status status, int code, const char* says) const {
   Solution solution;
   solution.x = best_;
-  solution.cost = best_cost_;
+  if (std::isfinite(best_cost_)) solution.cost = best_cost_;
   solution.status = status;
   solution.backend_code = code;
   solution.backend_says = says;
-  if (!std::isnan(best_cost_)) {
+  if (std::isfinite(best_cost_) && hemmed_in_) {
     solution.violation =
         std::max(bounds_violation(problem_, best_), constraint_violation(problem_, best_));
   }
-  solution.evaluations = evaluations_;
+  solution.evaluations = static_cast<int>(evaluations_);
   solution.seconds =
       std::chrono::duration<double>(std::chrono::steady_clock::now() - begin_).count();
   return solution;

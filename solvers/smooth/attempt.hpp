@@ -48,17 +48,18 @@ class Attempt {
   Outcome constrain(int k, const double* y, double& value, double* gradient = nullptr,
                     double* hessian = nullptr);
 
-  /// One block of the residuals of a least-squares problem at y, with its Jacobian (row-major).
+  /// For solvers of least squares, which ask for residuals instead of costs: begins an evaluation
+  /// at y. The cost follows when all blocks have been asked for once, in their order.
+  Outcome begin_residuals(const double* y);
+
+  /// One block of the residuals at y, with its Jacobian (row-major) where that is not null.
   Outcome residuals(int block, const double* y, double* values, double* jacobian);
 
-  bool must_stop() const { return failure_ || out_of_budget_; }
-  bool met_not_finite() const { return met_not_finite_; }
+  bool must_stop() const { return stopped_; }
 
-  /// The best point so far; meaningless before the first fine evaluation.
+  /// The best point so far and its cost; NaN and infinite before the first fine evaluation.
   Problem::Vector best() const { return free_part(best_); }
-
-  /// What a backend that can only be stopped by a number is told instead of the cost.
-  double worst_cost() const { return worst_cost_; }
+  double best_cost() const { return best_cost_; }
 
   /// Judges the best point. Rethrows what the cost threw. `code` and `says` (a literal): the
   /// backend's own words.
@@ -70,8 +71,10 @@ class Attempt {
  private:
   const char* flaw() const;
   Problem::Vector free_part(const Problem::Vector& all) const;
-  void place(const double* y);
-  void remember(double cost);
+  const double* place(const double* y);  ///< all unknowns at y
+  bool may_go_on();                      ///< counts an evaluation, or ends the attempt
+  bool evaluate_some_free(const double* y, double& cost, double* gradient, double* hessian);
+  void remember(const double* x, double cost);
   Status judge() const;
   Solution answer(Status status, int code, const char* says) const;
 
@@ -84,18 +87,22 @@ class Attempt {
   const Problem& problem_;
   const Limits limits_;
   const std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();
+  const bool hemmed_in_;  // by bounds or constraints
   int free_[Problem::max_dimension] = {};
   int free_count_ = 0;
+  bool all_free_ = false;
   bool open_ = false;
   const char* wrong_ = nullptr;
 
   Problem::Vector point_, best_;
-  double best_cost_, best_violation_ = 0.0;
-  double worst_cost_ = -std::numeric_limits<double>::infinity();
-  double steepest_ = 0.0;
-  int evaluations_ = 0;
+  double best_cost_ = std::numeric_limits<double>::infinity();
+  double best_violation_ = 0.0;
+  double steepest_squared_ = 0.0;
+  double cost_of_blocks_ = 0.0;
+  int next_block_ = 0;
+  std::int64_t evaluations_ = 0;
   std::exception_ptr failure_;
-  bool out_of_budget_ = false;
+  bool stopped_ = false;
   bool met_not_finite_ = false;
 };
 

@@ -56,8 +56,7 @@ class Trials final : public ceres::EvaluationCallback {
   Trials(Attempt& attempt, const double* y) : attempt_(attempt), y_(y) {}
 
   void PrepareForEvaluation(bool, bool new_point) override {
-    double cost = 0.0;
-    if (new_point) attempt_.evaluate(y_, cost);
+    if (new_point) attempt_.begin_residuals(y_);
   }
 
  private:

@@ -1,13 +1,16 @@
 #include "shoal/solvers/smooth/minimum.hpp"
 
+#include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
 #include <Eigen/QR>
 #include <algorithm>
+#include <type_traits>
 #include <vector>
 
 namespace shoal::solvers {
 namespace {
 
+constexpr double slack = 10.0;  // the backends bound their last step, not the error
 constexpr int n_max = Problem::max_dimension;
 using Vector = Problem::Vector;
 using Matrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, n_max, n_max>;
@@ -88,6 +91,24 @@ Eigen::VectorXd multipliers(const Columns& normals, const Vector& slope) {
   return best;
 }
 
+/// Whether the cost is about flat, or Newton's step short, and nothing leads down from here.
+template <int N>
+bool flat_or_near(const Vector& slope, const Matrix& curvature, double longest, double steepest) {
+  constexpr double flat = 1e-6;
+  constexpr double rounding = 1e-8;
+  using Part = std::conditional_t<N == Eigen::Dynamic, Vector, Eigen::Matrix<double, N, 1>>;
+  using Square = std::conditional_t<N == Eigen::Dynamic, Matrix, Eigen::Matrix<double, N, N>>;
+  const Part down = slope;
+  const Square bend = curvature;
+  const bool is_flat = down.norm() <= flat * steepest;
+  const Eigen::LLT<Square> factor(bend);
+  if (factor.info() == Eigen::Success) return is_flat || factor.solve(down).norm() <= longest;
+  if (!is_flat) return false;
+  const Part bends =
+      Eigen::SelfAdjointEigenSolver<Square>(bend, Eigen::EigenvaluesOnly).eigenvalues();
+  return bends.minCoeff() >= -rounding * bends.cwiseAbs().maxCoeff();
+}
+
 }  // namespace
 
 double bounds_violation(const Problem& problem, const Vector& x) {
@@ -107,49 +128,46 @@ double constraint_violation(const Problem& problem, const Vector& x) {
 
 bool is_local_minimum(const Problem& problem, const Vector& x, double x_tolerance_m,
                       double steepest) {
-  constexpr double flat = 1e-6;
-  constexpr double slack = 10.0;  // the backends bound their last step, not the error
-  constexpr double rounding = 1e-8;
-  const Eigen::Index n = x.size();
-  Vector slope(n);
-  Matrix curvature(n, n);
+  const double longest = slack * x_tolerance_m;
+  Vector slope(x.size());
+  Matrix curvature(x.size(), x.size());
   problem.evaluate(x.data(), slope.data(), curvature.data());
   if (!slope.allFinite() || !curvature.allFinite()) return false;
-
-  Matrix surface = Matrix::Identity(n, n);  // columns span the directions along the obstacles
-  if (problem.lower || problem.constraints) {
-    const Obstacles obstacles = obstacles_at(problem, x, slack * x_tolerance_m);
-    const Eigen::VectorXd pressure = multipliers(obstacles.normals, slope);
-    std::vector<Eigen::Index> pressing;
-    for (Eigen::Index k = 0; k < pressure.size(); ++k) {
-      if (!(pressure[k] > 0.0)) continue;
-      pressing.push_back(k);
-      slope -= pressure[k] * obstacles.normals.col(k);
-      const int constraint = obstacles.constraints[static_cast<std::size_t>(k)];
-      if (constraint < 0) continue;
-      double value = 0.0;
-      Matrix bend(n, n);
-      problem.constraints->evaluate(constraint, x.data(), &value, nullptr, bend.data());
-      curvature -= pressure[k] * bend;
-    }
-    if (!pressing.empty()) {
-      const Eigen::MatrixXd held = obstacles.normals(Eigen::all, pressing);
-      const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(held);
-      const Eigen::MatrixXd basis = qr.householderQ() * Eigen::MatrixXd::Identity(n, n);
-      surface = basis.rightCols(n - qr.rank());
+  if (!problem.lower && !problem.constraints) {
+    switch (x.size()) {  // the usual case at every ping
+      case 2:
+        return flat_or_near<2>(slope, curvature, longest, steepest);
+      case 3:
+        return flat_or_near<3>(slope, curvature, longest, steepest);
+      default:
+        return flat_or_near<Eigen::Dynamic>(slope, curvature, longest, steepest);
     }
   }
+
+  const Obstacles obstacles = obstacles_at(problem, x, longest);
+  const Eigen::VectorXd pressure = multipliers(obstacles.normals, slope);
+  std::vector<Eigen::Index> pressing;
+  for (Eigen::Index k = 0; k < pressure.size(); ++k) {
+    if (!(pressure[k] > 0.0)) continue;
+    pressing.push_back(k);
+    slope -= pressure[k] * obstacles.normals.col(k);
+    const int constraint = obstacles.constraints[static_cast<std::size_t>(k)];
+    if (constraint < 0) continue;
+    double value = 0.0;
+    Matrix bend(x.size(), x.size());
+    problem.constraints->evaluate(constraint, x.data(), &value, nullptr, bend.data());
+    curvature -= pressure[k] * bend;
+  }
+  if (pressing.empty()) {
+    return flat_or_near<Eigen::Dynamic>(slope, curvature, longest, steepest);
+  }
+  const Eigen::MatrixXd held = obstacles.normals(Eigen::all, pressing);
+  const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(held);
+  const Eigen::MatrixXd basis = qr.householderQ() * Eigen::MatrixXd::Identity(x.size(), x.size());
+  const Eigen::MatrixXd surface = basis.rightCols(x.size() - qr.rank());
   if (surface.cols() == 0) return true;  // held in every direction
-
-  const Eigen::SelfAdjointEigenSolver<Matrix> along(surface.transpose() * curvature * surface);
-  const auto& bends = along.eigenvalues();
-  if (bends[0] < -rounding * std::max(std::abs(bends[0]), std::abs(bends[bends.size() - 1]))) {
-    return false;
-  }
-  if (slope.norm() <= flat * steepest) return true;
-  if (!(bends[0] > 0.0)) return false;
-  const Vector step = along.eigenvectors().transpose() * (surface.transpose() * slope);
-  return step.cwiseQuotient(bends).norm() <= slack * x_tolerance_m;
+  return flat_or_near<Eigen::Dynamic>(surface.transpose() * slope,
+                                      surface.transpose() * curvature * surface, longest, steepest);
 }
 
 }  // namespace shoal::solvers

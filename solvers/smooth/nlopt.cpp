@@ -60,39 +60,43 @@ struct Algorithm {
   bool uses_gradient;
   bool takes_constraints;
   bool global;
+  bool draws;  // random numbers
   int least_unknowns;
   const char* summary;
 };
 
 constexpr std::array algorithms{
-    Algorithm{"nlopt.lbfgs", NLOPT_LD_LBFGS, true, false, false, 1, "NLopt: limited-memory BFGS"},
-    Algorithm{"nlopt.slsqp", NLOPT_LD_SLSQP, true, true, false, 1,
+    Algorithm{"nlopt.lbfgs", NLOPT_LD_LBFGS, true, false, false, false, 1,
+              "NLopt: limited-memory BFGS"},
+    Algorithm{"nlopt.slsqp", NLOPT_LD_SLSQP, true, true, false, false, 1,
               "NLopt: sequential quadratic programming"},
-    Algorithm{"nlopt.mma", NLOPT_LD_MMA, true, true, false, 1,
+    Algorithm{"nlopt.mma", NLOPT_LD_MMA, true, true, false, false, 1,
               "NLopt: method of moving asymptotes"},
-    Algorithm{"nlopt.ccsaq", NLOPT_LD_CCSAQ, true, true, false, 1,
+    Algorithm{"nlopt.ccsaq", NLOPT_LD_CCSAQ, true, true, false, false, 1,
               "NLopt: conservative convex separable quadratic approximations"},
-    Algorithm{"nlopt.tnewton", NLOPT_LD_TNEWTON, true, false, false, 1, "NLopt: truncated Newton"},
-    Algorithm{"nlopt.var2", NLOPT_LD_VAR2, true, false, false, 1, "NLopt: variable metric, rank 2"},
-    Algorithm{"nlopt.bobyqa", NLOPT_LN_BOBYQA, false, false, false, 2,
+    Algorithm{"nlopt.tnewton", NLOPT_LD_TNEWTON, true, false, false, false, 1,
+              "NLopt: truncated Newton"},
+    Algorithm{"nlopt.var2", NLOPT_LD_VAR2, true, false, false, false, 1,
+              "NLopt: variable metric, rank 2"},
+    Algorithm{"nlopt.bobyqa", NLOPT_LN_BOBYQA, false, false, false, false, 2,
               "NLopt: quadratic models without derivatives (used by Rypkema 2015)"},
-    Algorithm{"nlopt.cobyla", NLOPT_LN_COBYLA, false, true, false, 1,
+    Algorithm{"nlopt.cobyla", NLOPT_LN_COBYLA, false, true, false, false, 1,
               "NLopt: linear models without derivatives"},
-    Algorithm{"nlopt.neldermead", NLOPT_LN_NELDERMEAD, false, false, false, 1,
+    Algorithm{"nlopt.neldermead", NLOPT_LN_NELDERMEAD, false, false, false, false, 1,
               "NLopt: Nelder-Mead simplex"},
-    Algorithm{"nlopt.sbplx", NLOPT_LN_SBPLX, false, false, false, 1,
+    Algorithm{"nlopt.sbplx", NLOPT_LN_SBPLX, false, false, false, false, 1,
               "NLopt: Subplex, simplices on subspaces"},
-    Algorithm{"nlopt.praxis", NLOPT_LN_PRAXIS, false, false, false, 1,
+    Algorithm{"nlopt.praxis", NLOPT_LN_PRAXIS, false, false, false, true, 1,
               "NLopt: principal axes, without derivatives"},
-    Algorithm{"nlopt.direct_l", NLOPT_GN_DIRECT_L, false, false, true, 1,
+    Algorithm{"nlopt.direct_l", NLOPT_GN_DIRECT_L, false, false, true, false, 1,
               "NLopt: dividing rectangles, in a box"},
-    Algorithm{"nlopt.crs2", NLOPT_GN_CRS2_LM, false, false, true, 1,
+    Algorithm{"nlopt.crs2", NLOPT_GN_CRS2_LM, false, false, true, true, 1,
               "NLopt: controlled random search with local mutation, in a box"},
-    Algorithm{"nlopt.isres", NLOPT_GN_ISRES, false, true, true, 1,
+    Algorithm{"nlopt.isres", NLOPT_GN_ISRES, false, true, true, true, 1,
               "NLopt: evolution strategy with stochastic ranking, in a box"},
-    Algorithm{"nlopt.mlsl", NLOPT_GD_MLSL_LDS, true, false, true, 1,
+    Algorithm{"nlopt.mlsl", NLOPT_GD_MLSL_LDS, true, false, true, true, 1,
               "NLopt: L-BFGS from low-discrepancy starts, in a box"},
-    Algorithm{"nlopt.stogo", NLOPT_GD_STOGO, true, false, true, 1,
+    Algorithm{"nlopt.stogo", NLOPT_GD_STOGO, true, false, true, false, 1,
               "NLopt: branch and bound with local searches, in a box"},
 };
 
@@ -138,7 +142,7 @@ class Run {
       nlopt_set_local_optimizer(backend_, local.get());
     }
     // What is drawn belongs to this solve: the same problem shall give the same answer.
-    nlopt_srand(static_cast<unsigned long>(options.seed));
+    if (algorithm_.draws) nlopt_srand(static_cast<unsigned long>(options.seed));
     double lowest = 0.0;
     return nlopt_optimize(backend_, x.data(), &lowest);
   }
@@ -163,9 +167,7 @@ class Run {
     if (!run.stopped_ && run.attempt_.evaluate(y, value, gradient) == Attempt::Outcome::fine) {
       return value;
     }
-    run.stop();
-    for (int k = 0; gradient && k < run.attempt_.unknowns(); ++k) gradient[k] = 0.0;
-    return std::isfinite(run.attempt_.worst_cost()) ? run.attempt_.worst_cost() : 0.0;
+    return run.stop(gradient);
   }
 
   static void constraints(unsigned count, double* values, unsigned unknowns, const double* y,
@@ -174,20 +176,18 @@ class Run {
     for (unsigned k = 0; k < count; ++k) {
       double* gradient = gradients ? gradients + k * unknowns : nullptr;
       const auto outcome = run.attempt_.constrain(static_cast<int>(k), y, values[k], gradient);
-      if (outcome != Attempt::Outcome::fine) {
-        run.stop();
-        values[k] = 0.0;
-        for (unsigned i = 0; gradient && i < unknowns; ++i) gradient[i] = 0.0;
-      }
+      if (outcome != Attempt::Outcome::fine) values[k] = run.stop(gradient);
       values[k] = -values[k];  // NLopt's constraints are g <= 0
       for (unsigned i = 0; gradient && i < unknowns; ++i) gradient[i] = -gradient[i];
     }
   }
 
   // Some methods go on for a while.
-  void stop() {
+  double stop(double* gradient) {
     stopped_ = true;
     nlopt_force_stop(backend_);
+    for (int k = 0; gradient && k < attempt_.unknowns(); ++k) gradient[k] = 0.0;
+    return std::isfinite(attempt_.best_cost()) ? attempt_.best_cost() : 0.0;
   }
 
   Attempt& attempt_;
