@@ -32,6 +32,8 @@ function(shoal_library layer)
   target_include_directories(shoal_${layer} PUBLIC $<BUILD_INTERFACE:${SHOAL_INCLUDE}>
                              $<INSTALL_INTERFACE:include>)
   target_compile_features(shoal_${layer} PUBLIC cxx_std_20)
+  # What a backend's static library brings stays inside: a user may link another version of it.
+  target_link_options(shoal_${layer} PRIVATE LINKER:--exclude-libs,ALL)
   # Neither changes a number: square roots need not set errno, and no one asks for floating-point traps.
   target_compile_options(shoal_${layer} PRIVATE -fno-semantic-interposition -fno-math-errno
                          -fno-trapping-math)

@@ -18,6 +18,9 @@ cmake --build --preset ci
 step 'tests'
 ctest --test-dir build/ci --output-on-failure
 
+step 'every solver on every known problem'
+build/ci/bin/solvers_test --gtest_brief=1 --gtest_filter='SolverMatrix.*'
+
 step 'format and lint'
 tests/lint.sh build/ci
 

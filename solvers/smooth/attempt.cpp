@@ -108,6 +108,7 @@ Attempt::Outcome Attempt::evaluate(const double* y, double& cost, double* gradie
       finite &= std::isfinite(squared);
       if (finite) steepest_squared_ = std::max(steepest_squared_, squared);
     }
+    if (finite) worst_cost_ = std::max(worst_cost_, cost);
     // Without bounds and constraints, most points are done with here.
     if (finite && (hemmed_in_ || cost < best_cost_)) remember(all_free_ ? y : point_.data(), cost);
     return finite;

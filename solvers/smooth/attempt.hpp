@@ -57,9 +57,12 @@ class Attempt {
 
   bool must_stop() const { return stopped_; }
 
-  /// The best point so far and its cost; NaN and infinite before the first fine evaluation.
+  /// The best point so far; NaN before the first fine evaluation.
   Problem::Vector best() const { return free_part(best_); }
-  double best_cost() const { return best_cost_; }
+
+  /// The highest cost so far: what a backend may be told that needs a number where there is none.
+  /// -infinity before the first fine evaluation.
+  double worst_cost() const { return worst_cost_; }
 
   /// Judges the best point. Rethrows what the cost threw. `code` and `says` (a literal): the
   /// backend's own words.
@@ -97,6 +100,7 @@ class Attempt {
   Problem::Vector point_, best_;
   double best_cost_ = std::numeric_limits<double>::infinity();
   double best_violation_ = 0.0;
+  double worst_cost_ = -std::numeric_limits<double>::infinity();
   double steepest_squared_ = 0.0;
   double cost_of_blocks_ = 0.0;
   int next_block_ = 0;

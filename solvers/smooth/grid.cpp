@@ -19,7 +19,7 @@ struct GridOptions : GlobalLimits {
   }
 };
 
-/// Tries every point of a grid over the whole box, then of a finer one about the best, until the
+/// Tries every point of a grid over the whole box, then of finer ones about the best, until the
 /// mesh is as fine as the tolerance: slow, and hard to mislead. An oracle for tests.
 class Grid final : public Solver {
  public:
@@ -31,14 +31,22 @@ class Grid final : public Solver {
     if (!attempt.open()) return attempt.finish(0, "");
 
     const Vector lower = attempt.lower(), upper = attempt.upper();
+    const double intervals = static_cast<double>(options_.points_per_axis - 1);
+    Vector mesh = (upper - lower) / intervals;
     Vector low = lower, high = upper;
     while (visit_all(attempt, low, high)) {
-      const Vector mesh = (high - low) / static_cast<double>(options_.points_per_axis - 1);
-      if (mesh.maxCoeff() <= options_.x_tolerance_m) break;
       const Vector best = attempt.best();
       if (!best.allFinite()) break;
-      low = (best - 2.0 * mesh).cwiseMax(lower);
-      high = (best + 2.0 * mesh).cwiseMin(upper);
+      // At the edge of what was seen, it may go on outside: down a valley, say.
+      const bool at_edge =
+          ((best - low).array() < 1.5 * mesh.array() && low.array() > lower.array()).any() ||
+          ((high - best).array() < 1.5 * mesh.array() && high.array() < upper.array()).any();
+      if (!at_edge) {
+        if (mesh.maxCoeff() <= options_.x_tolerance_m) break;
+        mesh *= zoom;
+      }
+      low = (best - 0.5 * intervals * mesh).cwiseMax(lower);
+      high = (best + 0.5 * intervals * mesh).cwiseMin(upper);
     }
     return attempt.finish(0, "the mesh is as fine as asked, or the budget is spent");
   }
@@ -48,10 +56,16 @@ class Grid final : public Solver {
         !(problem.lower->allFinite() && problem.upper->allFinite())) {
       return "needs finite bounds: it tries the whole box";
     }
+    if (problem.constraints) {
+      return "takes no constraints: along a curved edge the best lies between its points";
+    }
+    if (problem.dimension() > 3) return "takes at most three unknowns: a grid of more has no end";
     return std::nullopt;
   }
 
  private:
+  static constexpr double zoom = 0.2;
+
   bool visit_all(Attempt& attempt, const Vector& low, const Vector& high) const {
     const int n = attempt.unknowns();
     const auto last = options_.points_per_axis - 1;

@@ -4,6 +4,7 @@
 #include <Eigen/Eigenvalues>
 #include <Eigen/QR>
 #include <algorithm>
+#include <cmath>
 #include <type_traits>
 #include <vector>
 
@@ -91,22 +92,34 @@ Eigen::VectorXd multipliers(const Columns& normals, const Vector& slope) {
   return best;
 }
 
-/// Whether the cost is about flat, or Newton's step short, and nothing leads down from here.
+/// Whether Newton's step is short, and nothing leads down from here. Directions without a bend have
+/// no such step: there the slope must be negligible.
 template <int N>
-bool flat_or_near(const Vector& slope, const Matrix& curvature, double longest, double steepest) {
+bool lowest_around(const Vector& slope, const Matrix& curvature, double longest, double steepest) {
   constexpr double flat = 1e-6;
-  constexpr double rounding = 1e-8;
+  constexpr double rounding = 1e-10;
   using Part = std::conditional_t<N == Eigen::Dynamic, Vector, Eigen::Matrix<double, N, 1>>;
   using Square = std::conditional_t<N == Eigen::Dynamic, Matrix, Eigen::Matrix<double, N, N>>;
-  const Part down = slope;
   const Square bend = curvature;
-  const bool is_flat = down.norm() <= flat * steepest;
-  const Eigen::LLT<Square> factor(bend);
-  if (factor.info() == Eigen::Success) return is_flat || factor.solve(down).norm() <= longest;
-  if (!is_flat) return false;
-  const Part bends =
-      Eigen::SelfAdjointEigenSolver<Square>(bend, Eigen::EigenvaluesOnly).eigenvalues();
-  return bends.minCoeff() >= -rounding * bends.cwiseAbs().maxCoeff();
+  const Eigen::LLT<Square> factor(bend);  // the usual case, and fast
+  if (factor.info() == Eigen::Success) {
+    const Part step = factor.solve(Part(slope));
+    if (step.norm() <= longest) return true;
+  }
+  const Eigen::SelfAdjointEigenSolver<Square> eigen(bend);
+  const Part bends = eigen.eigenvalues();
+  const Part along = eigen.eigenvectors().transpose() * slope;
+  const double none = rounding * bends.cwiseAbs().maxCoeff();
+  double squared = 0.0;
+  for (Eigen::Index i = 0; i < bends.size(); ++i) {
+    if (bends[i] < -none) return false;
+    if (bends[i] > none) {
+      squared += along[i] * along[i] / (bends[i] * bends[i]);
+    } else if (std::abs(along[i]) > flat * steepest) {
+      return false;
+    }
+  }
+  return std::sqrt(squared) <= longest;
 }
 
 }  // namespace
@@ -136,11 +149,11 @@ bool is_local_minimum(const Problem& problem, const Vector& x, double x_toleranc
   if (!problem.lower && !problem.constraints) {
     switch (x.size()) {  // the usual case at every ping
       case 2:
-        return flat_or_near<2>(slope, curvature, longest, steepest);
+        return lowest_around<2>(slope, curvature, longest, steepest);
       case 3:
-        return flat_or_near<3>(slope, curvature, longest, steepest);
+        return lowest_around<3>(slope, curvature, longest, steepest);
       default:
-        return flat_or_near<Eigen::Dynamic>(slope, curvature, longest, steepest);
+        return lowest_around<Eigen::Dynamic>(slope, curvature, longest, steepest);
     }
   }
 
@@ -159,15 +172,15 @@ bool is_local_minimum(const Problem& problem, const Vector& x, double x_toleranc
     curvature -= pressure[k] * bend;
   }
   if (pressing.empty()) {
-    return flat_or_near<Eigen::Dynamic>(slope, curvature, longest, steepest);
+    return lowest_around<Eigen::Dynamic>(slope, curvature, longest, steepest);
   }
   const Eigen::MatrixXd held = obstacles.normals(Eigen::all, pressing);
   const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(held);
   const Eigen::MatrixXd basis = qr.householderQ() * Eigen::MatrixXd::Identity(x.size(), x.size());
   const Eigen::MatrixXd surface = basis.rightCols(x.size() - qr.rank());
   if (surface.cols() == 0) return true;  // held in every direction
-  return flat_or_near<Eigen::Dynamic>(surface.transpose() * slope,
-                                      surface.transpose() * curvature * surface, longest, steepest);
+  return lowest_around<Eigen::Dynamic>(
+      surface.transpose() * slope, surface.transpose() * curvature * surface, longest, steepest);
 }
 
 }  // namespace shoal::solvers

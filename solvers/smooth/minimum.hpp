@@ -14,9 +14,10 @@ double constraint_violation(const Problem& problem, const Problem::Vector& x);
 /// breaking a constraint.
 ///
 /// With the multipliers that fit best (at least zero, for the bounds and constraints that hold x
-/// back), the slope that is left must be negligible beside `steepest`, the steepest one met, or
-/// Newton's step along the surface of these constraints about as short as `x_tolerance_m`; and the
-/// cost must not curve downwards along it, so that no saddle passes for a minimum.
+/// back), Newton's step along the surface of these constraints must be about as short as
+/// `x_tolerance_m`, and the cost must not curve downwards along it, so that no saddle passes for a
+/// minimum. Where the cost has no bend at all the slope must be negligible beside `steepest`, the
+/// steepest one met.
 bool is_local_minimum(const Problem& problem, const Problem::Vector& x, double x_tolerance_m,
                       double steepest);
 

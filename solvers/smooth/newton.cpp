@@ -115,7 +115,11 @@ class Descent {
         // A whole Newton step, and the curvature is positive: a minimum is as near as asked.
         return attempt_.finish_converged("Newton's step is within the tolerance");
       }
-      if (!(expected > 0.0)) break;
+      if (!(expected > 0.0)) {  // bounds cut the step to one that leads nowhere
+        if (!attempt_.bounded()) break;
+        radius *= 0.25;
+        continue;
+      }
 
       Point<N> there;
       there.x = here.x + step;

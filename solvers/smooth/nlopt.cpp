@@ -111,8 +111,12 @@ class Run {
     if constexpr (requires { options.polish_evaluations; }) {
       kept = std::min(options.polish_evaluations, options.max_evaluations / 2);
     }
+    if (algorithm_.global) {  // which need not look at the start by themselves
+      double cost_at_start = 0.0;
+      attempt_.evaluate(attempt_.start().data(), cost_at_start);
+    }
     nlopt_result result = minimise(algorithm_.id, attempt_.start(), options, kept);
-    if (kept > 0 && !stopped_) {
+    if (kept > 0 && attempt_.best().allFinite()) {
       result = minimise(NLOPT_LD_SLSQP, attempt_.best(), options, 0);
     }
     const char* says = nlopt_result_to_string(result);
@@ -159,15 +163,12 @@ class Run {
     return handle;
   }
 
-  // NLopt is C: no exception may pass. What it is told after a stop does not matter, but has to be
-  // finite: on infinities COBYLA may circle in its linear model for ever, without a call back.
+  // NLopt is C: no exception may pass.
   static double cost(unsigned, const double* y, double* gradient, void* self) {
     Run& run = *static_cast<Run*>(self);
     double value = 0.0;
-    if (!run.stopped_ && run.attempt_.evaluate(y, value, gradient) == Attempt::Outcome::fine) {
-      return value;
-    }
-    return run.stop(gradient);
+    const Attempt::Outcome outcome = run.attempt_.evaluate(y, value, gradient);
+    return outcome == Attempt::Outcome::fine ? value : run.substitute(outcome, gradient);
   }
 
   static void constraints(unsigned count, double* values, unsigned unknowns, const double* y,
@@ -176,24 +177,24 @@ class Run {
     for (unsigned k = 0; k < count; ++k) {
       double* gradient = gradients ? gradients + k * unknowns : nullptr;
       const auto outcome = run.attempt_.constrain(static_cast<int>(k), y, values[k], gradient);
-      if (outcome != Attempt::Outcome::fine) values[k] = run.stop(gradient);
+      if (outcome != Attempt::Outcome::fine) values[k] = -run.substitute(outcome, gradient);
       values[k] = -values[k];  // NLopt's constraints are g <= 0
       for (unsigned i = 0; gradient && i < unknowns; ++i) gradient[i] = -gradient[i];
     }
   }
 
-  // Some methods go on for a while.
-  double stop(double* gradient) {
-    stopped_ = true;
-    nlopt_force_stop(backend_);
+  // Where there is no cost, a high one sends the methods elsewhere; the judgement does not forget.
+  // It has to be finite: on infinities COBYLA may circle in its linear model without a call back.
+  double substitute(Attempt::Outcome outcome, double* gradient) {
+    const bool any = std::isfinite(attempt_.worst_cost());
+    if (outcome == Attempt::Outcome::stop || !any) nlopt_force_stop(backend_);
     for (int k = 0; gradient && k < attempt_.unknowns(); ++k) gradient[k] = 0.0;
-    return std::isfinite(attempt_.best_cost()) ? attempt_.best_cost() : 0.0;
+    return any ? attempt_.worst_cost() : 0.0;
   }
 
   Attempt& attempt_;
   const Algorithm& algorithm_;
   nlopt_opt backend_ = nullptr;
-  bool stopped_ = false;
 };
 
 template <class SomeOptions>

@@ -65,12 +65,22 @@ TEST(Minimum, IsNoSaddleAndNoSummit) {
                           Vector2d(0, 0)));
 }
 
+// Beside the slope on the walls of a valley, that along its floor is nothing; it leads far.
+TEST(Minimum, IsNotTheFloorOfALongValley) {
+  const auto valley = [](const auto* x) { return 1e7 * x[0] * x[0] + x[1] * x[1]; };
+  EXPECT_FALSE(is_local_minimum(posed(valley), Vector2d(0, 3), tolerance_m, 1e8));
+  EXPECT_TRUE(is_local_minimum(posed(valley), Vector2d(0, 3e-4), tolerance_m, 1e8));
+}
+
 TEST(Minimum, MayBeFlat) {
   const auto quartic = [](const auto* x) {
     return x[0] * x[0] * x[0] * x[0] + x[1] * x[1] * x[1] * x[1];
   };
   EXPECT_TRUE(is_minimum(posed(quartic), Vector2d(1e-3, 0)));
   EXPECT_FALSE(is_minimum(posed(quartic), Vector2d(0.1, 0)));
+  const auto valley = [](const auto* x) { return (x[0] - x[1]) * (x[0] - x[1]); };
+  EXPECT_TRUE(is_minimum(posed(valley), Vector2d(5, 5)));
+  EXPECT_FALSE(is_minimum(posed(valley), Vector2d(5, 5.01)));
   EXPECT_TRUE(is_minimum(posed([](const auto* x) { return 0.0 * x[0]; }), Vector2d(7, 7)));
 }
 
