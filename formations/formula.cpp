@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <charconv>
 #include <cmath>
 #include <vector>
 
@@ -20,6 +21,11 @@ constexpr std::array<const char*, 3> part_names{"it", "its first derivative",
 
 std::string spelled(double x) {
   return std::isnan(x) ? "not a number" : std::isinf(x) ? "infinite" : shortest(x);
+}
+
+std::string six_digits(double x) {
+  char text[32];
+  return {text, std::to_chars(text, text + sizeof text, x, std::chars_format::general, 6).ptr};
 }
 
 /// Evenly on a logarithmic scale, finer around the separation, and at whole metres, where people
@@ -57,7 +63,7 @@ void Formula::prepare(double s) {
 
 std::optional<std::string> Formula::trouble(double from_m, double to_m, double s) const {
   const auto found = [&](std::size_t part, double r, const std::string& is) {
-    return std::string(part_names[part]) + " is " + is + " at r = " + shortest(r) +
+    return std::string(part_names[part]) + " is " + is + " at r = " + six_digits(r) +
            " m for s = " + shortest(s) + " m";
   };
   // Where the sign changes between two samples lies a zero, or a jump, or a pole: only that grows.

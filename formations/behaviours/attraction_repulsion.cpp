@@ -86,12 +86,12 @@ struct AttractionRepulsionOptions {
   }
 };
 
-/// Refuses what was chosen, where it was written.
+/// Refuses what was chosen, where that or its options were written.
 template <class Family>
 [[noreturn]] void refuse(const Choice<Family>& choice, const std::string& why) {
   const ChoiceSetting& setting = choice.setting();
   const std::string path = setting.path.empty() ? Family::family : setting.path;
-  throw InputError(setting.origin, path + "." + choice.kind() + ": " + why);
+  throw InputError(setting.options().origin, path + "." + choice.kind() + ": " + why);
 }
 
 /// Goes to the nearest minimum of an attraction/repulsion potential of some neighbours: Rypkema

@@ -8,6 +8,7 @@ namespace shoal::formations {
 namespace {
 
 using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
+// The flag: a neighbour of the vehicle, or the vehicle.
 using Vertex = CGAL::Triangulation_vertex_base_with_info_2<bool, Kernel>;
 using Triangulation =
     CGAL::Delaunay_triangulation_2<Kernel, CGAL::Triangulation_data_structure_2<Vertex>>;
@@ -21,7 +22,9 @@ struct Delaunay final : Selection {
   void select(std::span<const Neighbour> in_range, std::vector<int>& chosen) const override {
     Triangulation triangulation;
     const auto inserted = [&](const Eigen::Vector2d& p) {
-      return triangulation.insert({p.x(), p.y()});
+      const auto vertex = triangulation.insert({p.x(), p.y()});
+      vertex->info() = false;
+      return vertex;
     };
     const auto own = inserted(Eigen::Vector2d::Zero());
     thread_local std::vector<Triangulation::Vertex_handle> vertices;
