@@ -15,10 +15,13 @@ struct Neighbour {
   int slot = anonymous;      ///< its slot of the plan, if its pings carry an id
 };
 
-/// All that a behaviour is told: who is around, and which slot is the own one.
+/// All that a behaviour is told: who is around, which slot is the own one, and where the vehicle
+/// is.
 struct Neighbourhood {
   std::span<const Neighbour> neighbours;
   int own_slot = 0;
+  /// Metres east and north in the fixed frame of the own positions; for way-points only.
+  Eigen::Vector2d own_position = Eigen::Vector2d::Zero();
 };
 
 }  // namespace shoal::formations

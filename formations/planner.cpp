@@ -36,7 +36,8 @@ void Planner::receive(const Ping& ping, const Eigen::Vector2d& own_position) {
 }
 
 const Target& Planner::plan(double time_s, const Eigen::Vector2d& own_position) {
-  target_ = behaviour_->step({filter_.neighbours(time_s, own_position), own_slot_}, *plan_);
+  target_ =
+      behaviour_->step({filter_.neighbours(time_s, own_position), own_slot_, own_position}, *plan_);
   target_position_ = own_position + target_.position;
   return target_;
 }

@@ -18,7 +18,8 @@ namespace shoal::formations {
 /// files, threads or global state, and does not allocate once it has met its neighbours.
 ///
 /// Own positions are metres east and north in any fixed frame (dead reckoning will do); only their
-/// differences matter. Plan and behaviour may be shared by many planners and threads.
+/// differences matter, unless the behaviour has a way-point: that is a place of this frame. Plan
+/// and behaviour may be shared by many planners and threads.
 class Planner {
  public:
   /// Throws InputError if the plan has no slot of that name.

@@ -1,6 +1,8 @@
 #pragma once
 
 #include <memory>
+#include <optional>
+#include <string>
 
 #include "shoal/core/registry.hpp"
 #include "shoal/solvers/taylor.hpp"
@@ -15,7 +17,7 @@ struct RadialValue {
 };
 
 /// A potential between two vehicles as a function of their distance r (m, above 0), lowest at the
-/// separation s (m).
+/// separation s (m). A law that is published as a force is enrolled as its integral.
 class Potential {
  public:
   static constexpr const char* family = "potential";
@@ -24,6 +26,15 @@ class Potential {
   virtual ~Potential() = default;
   virtual double value(double r, double s) const = 0;
   virtual RadialValue derivatives(double r, double s) const = 0;
+
+  /// What is wrong with this potential at this separation, or nothing. Asked before it is used.
+  virtual std::optional<std::string> complaint(double separation_m) const {
+    (void)separation_m;
+    return std::nullopt;
+  }
+
+  /// Told once, before it is shared, which separation is to come: it may compute ahead.
+  virtual void prepare(double separation_m) { (void)separation_m; }
 };
 
 /// Makes a Potential of a struct with `template <class T> T operator()(const T& r, double s)

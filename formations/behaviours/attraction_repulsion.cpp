@@ -1,35 +1,38 @@
-#include <cmath>
+#include <boost/container/small_vector.hpp>
 #include <limits>
 #include <memory>
+#include <utility>
+#include <variant>
+#include <vector>
 
 #include "shoal/formations/behaviour.hpp"
+#include "shoal/formations/cohesion.hpp"
 #include "shoal/formations/potential.hpp"
+#include "shoal/formations/selection.hpp"
 #include "shoal/solvers/solver.hpp"
 
 namespace shoal::formations {
 namespace {
 
-/// Sum (or mean) of a pair potential over the selected neighbours, and the pull of a centroid:
-/// Rypkema 2015, eq. 3.7. Unknowns: the own position (m, own frame).
+/// Sum (or mean) of a pair potential over the selected neighbours, and a cohesion term: Rypkema
+/// 2015, eq. 3.7. Unknowns: the own position (m, own frame).
+///
+/// A value that holds its places itself; the potential and the cohesion belong to the behaviour.
 class AttractionRepulsionCost final : public solvers::Objective {
  public:
   const Potential* potential = nullptr;
+  const Cohesion* cohesion = nullptr;
   double separation_m = 0.0;
   double share = 1.0;  // of each selected neighbour: 1 for a sum, 1/n for a mean
-  Eigen::Vector2d selected[2];
-  int count = 0;
-  Eigen::Vector2d centroid = Eigen::Vector2d::Zero();
-  double centroid_weight = 0.0;
+  Eigen::Vector2d anchor = Eigen::Vector2d::Zero();
+  boost::container::small_vector<Eigen::Vector2d, 8> selected;
 
   double evaluate(const double* x, double* gradient, double* hessian) const override {
     const Eigen::Vector2d p(x[0], x[1]);
-    const Eigen::Vector2d from_centroid = p - centroid;
-    double cost = centroid_weight * from_centroid.squaredNorm();
-    Eigen::Vector2d slope = 2.0 * centroid_weight * from_centroid;
-    Eigen::Matrix2d curvature = 2.0 * centroid_weight * Eigen::Matrix2d::Identity();
+    auto [cost, slope, curvature] = cohesion->at(p - anchor);
 
-    for (int i = 0; i < count; ++i) {
-      const Eigen::Vector2d away = p - selected[i];
+    for (const Eigen::Vector2d& neighbour : selected) {
+      const Eigen::Vector2d away = p - neighbour;
       const double r = away.norm();
       // On top of a neighbour the potential has no gradient; the solver must turn away from it.
       if (!(r > 0.0)) return std::numeric_limits<double>::infinity();
@@ -55,16 +58,17 @@ class AttractionRepulsionCost final : public solvers::Objective {
     return {new AttractionRepulsionCost(*this), true};
   }
 };
+// What a Problem holds in place: posing one must not allocate.
+static_assert(sizeof(AttractionRepulsionCost) <= 256);
 
 enum class Combination { sum, mean };
-enum class Centroid { neighbours, neighbours_and_own };
 
 struct AttractionRepulsionOptions {
   double contact_rangeout_m = 650.0;
   double separation_m = 300.0;
-  double centroid_weight = 1e-5;
   Combination combination = Combination::sum;
-  Centroid centroid = Centroid::neighbours;
+  Choice<Selection> selection{"two_neighbours"};
+  Choice<Cohesion> cohesion{"centroid"};
   Choice<Potential> potential{"thesis"};
   Choice<solvers::Solver> solver{"nlopt.lbfgs"};
 
@@ -73,85 +77,98 @@ struct AttractionRepulsionOptions {
     o.number("contact_rangeout_m", &A::contact_rangeout_m, "m", above(0),
              "neighbours further away are ignored (Rypkema 2015, Table 3.4)");
     o.number("separation_m", &A::separation_m, "m", above(0), "distance of lattice neighbours");
-    o.number("centroid_weight", &A::centroid_weight, "1/m", at_least(0),
-             "pull towards the centroid of all neighbours, against fracture (eq. 3.7)");
     o.word("combination", &A::combination, {{"sum", Combination::sum}, {"mean", Combination::mean}},
-           "of the two potentials: their sum (eq. 3.7) or their mean (the author's program)");
-    o.word("centroid", &A::centroid,
-           {{"neighbours", Centroid::neighbours},
-            {"neighbours_and_own", Centroid::neighbours_and_own}},
-           "of the neighbours (eq. 3.7), or with the own position counted (the author's program)");
+           "of the potentials: their sum (eq. 3.7) or their mean (the author's program)");
+    o.choice("selection", &A::selection, "neighbours that the vehicle goes by");
+    o.choice("cohesion", &A::cohesion, "term against fracture");
     o.choice("potential", &A::potential, "pair potential");
     o.choice("solver", &A::solver, "minimises the cost");
   }
 };
 
-/// Goes to the nearest minimum of an attraction/repulsion potential of two neighbours: Rypkema
+/// Refuses what was chosen, where that or its options were written.
+template <class Family>
+[[noreturn]] void refuse(const Choice<Family>& choice, const std::string& why) {
+  const ChoiceSetting& setting = choice.setting();
+  const std::string path = setting.path.empty() ? Family::family : setting.path;
+  throw InputError(setting.options().origin, path + "." + choice.kind() + ": " + why);
+}
+
+/// Goes to the nearest minimum of an attraction/repulsion potential of some neighbours: Rypkema
 /// 2015, sec. 3.4, Alg. 5. Needs neither ids nor a plan.
 class AttractionRepulsion final : public Behaviour {
  public:
   explicit AttractionRepulsion(const AttractionRepulsionOptions& options)
-      : options_(options), potential_(options.potential.make()), solver_(options.solver.make()) {}
+      : options_(options),
+        selection_(options.selection.make()),
+        cohesion_(options.cohesion.make()),
+        solver_(options.solver.make()) {
+    std::unique_ptr<Potential> potential = options.potential.make();
+    if (const auto why = potential->complaint(options.separation_m)) {
+      refuse(options.potential, *why);
+    }
+    potential->prepare(options.separation_m);
+    potential_ = std::move(potential);
+    const Neighbour somebody{{options.separation_m, 0.0}};
+    const solvers::Problem usual(Eigen::Vector2d::Zero(), cost_of({&somebody, 1}, {}));
+    if (const auto why = solver_->refuses(usual)) {
+      refuse(options.solver, *why + "; choose a solver for two unknowns without bounds");
+    }
+  }
 
   bool needs_ids() const override { return false; }
 
   Target step(const Neighbourhood& seen, const Plan&) const override {
-    AttractionRepulsionCost cost;
-    if (!select(seen, cost)) return Target::hold(Reason::no_neighbour);
-    cost.potential = potential_.get();
-    cost.separation_m = options_.separation_m;
-    cost.share = options_.combination == Combination::sum ? 1.0 : 1.0 / cost.count;
-    cost.centroid_weight = options_.centroid_weight;
-
-    const solvers::Problem problem(Eigen::Vector2d::Zero(), cost);
-    const solvers::Solution solution = solver_->solve(problem);
+    const auto posed = pose(seen);
+    if (const Reason* why = std::get_if<Reason>(&posed)) return Target::hold(*why);
+    const solvers::Solution solution = solver_->solve(std::get<solvers::Problem>(posed));
     if (!solution.usable()) return Target::hold(Reason::solver_failed);
     return Target::at(solution.x.head<2>(), solution.cost);
   }
 
  private:
-  // The nearest neighbour, and the one that makes the triangle with it and the vehicle shortest
-  // (Lee and Chong; Rypkema 2015, Alg. 5, lines 6-23).
-  bool select(const Neighbourhood& seen, AttractionRepulsionCost& cost) const {
-    const auto usable = [&](const Neighbour& n) {
-      return n.position.norm() <= options_.contact_rangeout_m;
-    };
-    const Neighbour* nearest = nullptr;
-    Eigen::Vector2d sum = Eigen::Vector2d::Zero();
-    int heard = 0;
+  /// The problem of a vehicle, valid as long as this behaviour, or why there is none.
+  std::variant<solvers::Problem, Reason> pose(const Neighbourhood& seen) const {
+    thread_local std::vector<Neighbour> in_range;
+    in_range.clear();
     for (const Neighbour& n : seen.neighbours) {
-      if (!usable(n)) continue;
-      sum += n.position;
-      ++heard;
-      if (!nearest || n.position.norm() < nearest->position.norm()) nearest = &n;
+      if (n.position.norm() <= options_.contact_rangeout_m) in_range.push_back(n);
     }
-    if (!nearest) return false;
-    const int own = options_.centroid == Centroid::neighbours_and_own ? 1 : 0;
-    cost.centroid = sum / (heard + own);
-    cost.selected[cost.count++] = nearest->position;
+    const AttractionRepulsionCost cost = cost_of(in_range, seen.own_position);
+    if (cost.selected.empty()) return Reason::no_neighbour;
+    return std::variant<solvers::Problem, Reason>(std::in_place_type<solvers::Problem>,
+                                                  Eigen::Vector2d::Zero(), cost);
+  }
 
-    const Neighbour* second = nullptr;
-    double shortest = std::numeric_limits<double>::infinity();
-    for (const Neighbour& n : seen.neighbours) {
-      if (&n == nearest || !usable(n)) continue;
-      const double sides = n.position.norm() + (n.position - nearest->position).norm();
-      if (sides < shortest) {
-        shortest = sides;
-        second = &n;
-      }
+  AttractionRepulsionCost cost_of(std::span<const Neighbour> in_range,
+                                  const Eigen::Vector2d& own_position) const {
+    thread_local std::vector<int> chosen;
+    selection_->select(in_range, chosen);
+    AttractionRepulsionCost cost;
+    for (const int i : chosen) {
+      cost.selected.push_back(in_range[static_cast<std::size_t>(i)].position);
     }
-    if (second) cost.selected[cost.count++] = second->position;
-    return true;
+    if (chosen.empty()) return cost;
+    cost.potential = potential_.get();
+    cost.cohesion = cohesion_.get();
+    cost.separation_m = options_.separation_m;
+    if (options_.combination == Combination::mean) {
+      cost.share = 1.0 / static_cast<double>(chosen.size());
+    }
+    cost.anchor = cohesion_->anchor(in_range, own_position);
+    return cost;
   }
 
   AttractionRepulsionOptions options_;
+  std::shared_ptr<const Selection> selection_;
+  std::shared_ptr<const Cohesion> cohesion_;
   std::shared_ptr<const Potential> potential_;
   std::shared_ptr<const solvers::Solver> solver_;
 };
 
 const Enrol<Behaviour, AttractionRepulsionOptions> enrolled{
     "attraction_repulsion",
-    "nearest minimum of a pair potential of two neighbours (Rypkema 2015, sec. 3.4); no ids",
+    "nearest minimum of a pair potential of some neighbours (Rypkema 2015, sec. 3.4); no ids",
     [](const AttractionRepulsionOptions& options) {
       return std::make_unique<AttractionRepulsion>(options);
     }};

@@ -48,10 +48,13 @@ Scene scene(int neighbours, bool formed) {
 }
 
 void target(benchmark::State& state, const char* behaviour, int neighbours, bool formed,
-            double delta_theta_deg = 0.0) {
+            double delta_theta_deg = 0.0, const char* potential = nullptr,
+            const char* selection = nullptr) {
   const Scene seen = scene(neighbours, formed);
   shoal::Setting options;
   if (delta_theta_deg > 0.0) options.at_or_new("delta_theta_deg").value = delta_theta_deg;
+  if (potential) assign(options, "potential.kind", {std::string(potential), {}});
+  if (selection) assign(options, "selection.kind", {std::string(selection), {}});
   const auto member = shoal::Registry<Behaviour>::instance().make(behaviour, options, behaviour);
   for (auto _ : state) {
     benchmark::DoNotOptimize(member->step({seen.heard, seen.own}, seen.plan));
@@ -60,6 +63,12 @@ void target(benchmark::State& state, const char* behaviour, int neighbours, bool
 BENCHMARK_CAPTURE(target, rigid_10_neighbours, "rigid_registration", 10, true);
 BENCHMARK_CAPTURE(target, pairwise_10_neighbours, "pairwise_referencing", 10, true);
 BENCHMARK_CAPTURE(target, attraction_repulsion_10_neighbours, "attraction_repulsion", 10, true);
+BENCHMARK_CAPTURE(target, attraction_repulsion_10_neighbours_expression, "attraction_repulsion", 10,
+                  true, 0.0, "expression");
+BENCHMARK_CAPTURE(target, attraction_repulsion_10_neighbours_k_nearest, "attraction_repulsion", 10,
+                  true, 0.0, nullptr, "k_nearest");
+BENCHMARK_CAPTURE(target, attraction_repulsion_10_neighbours_delaunay, "attraction_repulsion", 10,
+                  true, 0.0, nullptr, "delaunay");
 BENCHMARK_CAPTURE(target, assignment_12_neighbours_10_deg_formed, "assignment_registration", 12,
                   true, 10.0);
 BENCHMARK_CAPTURE(target, assignment_12_neighbours_10_deg_in_a_box, "assignment_registration", 12,

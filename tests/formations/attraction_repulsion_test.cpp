@@ -1,5 +1,8 @@
 #include <gtest/gtest.h>
 
+#include "shoal/formations/cohesion.hpp"
+#include "shoal/formations/potential.hpp"
+#include "shoal/formations/selection.hpp"
 #include "shoal/solvers/autodiff.hpp"
 #include "shoal/solvers/solver.hpp"
 #include "tests/formations/swarm.hpp"
@@ -54,7 +57,8 @@ TEST_P(EnrolledSolver, FindsThePlaceOfFigure37) {
     GTEST_SKIP() << GetParam() << " " << *why;
   }
   const auto target = [&](double centroid_weight) {
-    return behaviour(kind, {{"centroid_weight", centroid_weight}, {"solver.kind", GetParam()}})
+    return behaviour(kind,
+                     {{"cohesion.centroid.weight", centroid_weight}, {"solver.kind", GetParam()}})
         ->step({figure37, 0}, unused);
   };
   EXPECT_EQ(target(0.0).reason, Reason::placed);
@@ -72,7 +76,7 @@ INSTANTIATE_TEST_SUITE_P(Solvers, EnrolledSolver,
 TEST(AttractionRepulsion, ChoosesTheNearestAndTheOneOfTheShortestTriangle) {
   // The second nearest (310 m, but opposite) makes a longer triangle than the third.
   const Neighbours seen = at({{-310, 0}, {250, 0}, {200, 280}});
-  const auto without_centroid = behaviour(kind, {{"centroid_weight", 0.0}});
+  const auto without_centroid = behaviour(kind, {{"cohesion.centroid.weight", 0.0}});
   const Vector2d target = without_centroid->step({seen, 0}, unused).position;
   EXPECT_NEAR((target - seen[1].position).norm(), 300.0, 0.01);
   EXPECT_NEAR((target - seen[2].position).norm(), 300.0, 0.01);
@@ -103,7 +107,7 @@ TEST(AttractionRepulsion, MinimisesTheSumAndThePullOfTheCentroidOfAllNeighbours)
 TEST(AttractionRepulsion, MinimisesTheMeanWithTheOwnPositionInTheCentroidInTheAuthorsVariant) {
   const Vector2d centroid = (figure37[0].position + figure37[1].position) / 3.0;
   const Target target =
-      behaviour(kind, {{"combination", "mean"}, {"centroid", "neighbours_and_own"}})
+      behaviour(kind, {{"combination", "mean"}, {"cohesion.centroid.counts_own", true}})
           ->step({figure37, 0}, unused);
   const auto expected = [&](const Vector2d& p) { return cost(p, figure37, centroid, 0.5); };
   EXPECT_NEAR(target.cost, expected(target.position), 1e-9);
@@ -116,12 +120,12 @@ TEST(AttractionRepulsion, MinimisesTheMeanWithTheOwnPositionInTheCentroidInTheAu
 // One neighbour at 200 m: f'(r) = share * (1 - (s/r)^3) + 2 w (r - distance to the centroid).
 TEST(AttractionRepulsion, KeepsTheSeparationFromASingleNeighbour) {
   const Target free =
-      behaviour(kind, {{"centroid_weight", 0.0}})->step({at({{0, 200}}), 0}, unused);
+      behaviour(kind, {{"cohesion.centroid.weight", 0.0}})->step({at({{0, 200}}), 0}, unused);
   EXPECT_LT((free.position - Vector2d(0, -100)).norm(), 0.01);
 }
 
 TEST(AttractionRepulsion, TakesTheSeparationFromItsOptions) {
-  const Target target = behaviour(kind, {{"centroid_weight", 0.0}, {"separation_m", 60.0}})
+  const Target target = behaviour(kind, {{"cohesion.centroid.weight", 0.0}, {"separation_m", 60.0}})
                             ->step({at({{100, 0}}), 0}, unused);
   EXPECT_LT((target.position - Vector2d(40, 0)).norm(), 0.01);
 }
@@ -129,7 +133,7 @@ TEST(AttractionRepulsion, TakesTheSeparationFromItsOptions) {
 // Invariance ------------------------------------------------------------------------------------
 
 TEST(AttractionRepulsion, StaysWhereALatticeTriangleIsReached) {
-  const auto free = behaviour(kind, {{"centroid_weight", 0.0}});
+  const auto free = behaviour(kind, {{"cohesion.centroid.weight", 0.0}});
   EXPECT_TRUE(rc::check("equilateral triangle in any direction: zero displacement", [&] {
     const double angle = drawn_angle();
     Neighbours seen = at({{300, 0}, {150, 300 * std::sqrt(0.75)}});
@@ -170,8 +174,8 @@ TEST(AttractionRepulsion, HoldsOnTopOfANeighbour) {
 }
 
 TEST(AttractionRepulsion, KeepsTheSeparationFromCoincidentNeighbours) {
-  const Target target =
-      behaviour(kind, {{"centroid_weight", 0.0}})->step({at({{150, 0}, {150, 0}}), 0}, unused);
+  const Target target = behaviour(kind, {{"cohesion.centroid.weight", 0.0}})
+                            ->step({at({{150, 0}, {150, 0}}), 0}, unused);
   EXPECT_NEAR((target.position - Vector2d(150, 0)).norm(), 300.0, 0.01);
 }
 
@@ -182,6 +186,158 @@ TEST(AttractionRepulsion, AnswersAMirroredSwarmWithTheMirroredTarget) {
   for (Neighbour& n : mirrored) n.position.x() *= -1.0;
   const Vector2d other = attraction->step({mirrored, 0}, unused).position;
   EXPECT_LT((other - Vector2d(-target.x(), target.y())).norm(), 1e-3);
+}
+
+// Every potential with every selection and cohesion ----------------------------------------------
+
+std::vector<std::string> fast_solvers() {
+  std::vector<std::string> names;
+  for (const std::string& name : Registry<solvers::Solver>::instance().names()) {
+    const auto solver = Registry<solvers::Solver>::instance().make(name, Setting{}, "test");
+    const bool fits = !solver->refuses({Vector2d(0, 0), solvers::differentiated<2>(Bowl{})});
+    const bool is_fast = name.find("bfgs") != std::string::npos || name.starts_with("newton");
+    if (fits && is_fast) names.push_back(name);
+  }
+  return names;
+}
+
+TEST(AttractionRepulsion, AnswersWithAFiniteTargetWhateverIsCombined) {
+  const std::vector<std::string> solvers = fast_solvers();
+  ASSERT_FALSE(solvers.empty());
+  for (const auto& potential : Registry<Potential>::instance().names()) {
+    for (const auto& selection : Registry<Selection>::instance().names()) {
+      for (const auto& cohesion : Registry<Cohesion>::instance().names()) {
+        for (const auto& solver : solvers) {
+          const auto made = behaviour(kind, {{"potential.kind", potential},
+                                             {"selection.kind", selection},
+                                             {"cohesion.kind", cohesion},
+                                             {"solver.kind", solver}});
+          const Plan plan = square_lattice(4, 3, 300.0);
+          for (int own = 0; own < plan.size(); own += 5) {
+            const Neighbours seen = heard(plan, own, rotation(own), {40.0 - 9.0 * own, 30});
+            const Target target = made->step({seen, own, {70, -20}}, plan);
+            EXPECT_TRUE(target.position.allFinite() && std::isfinite(target.cost))
+                << potential << ", " << selection << ", " << cohesion << ", " << solver;
+            EXPECT_EQ(target.reason, Reason::placed)
+                << potential << ", " << selection << ", " << cohesion << ", " << solver;
+          }
+        }
+      }
+    }
+  }
+}
+
+class PotentialInABehaviour : public testing::TestWithParam<std::string> {};
+
+TEST_P(PotentialInABehaviour, KeepsTheSeparationFromASingleNeighbour) {
+  const auto made = behaviour(kind, {{"cohesion.kind", "none"}, {"potential.kind", GetParam()}});
+  for (const Vector2d& p : {Vector2d(0, 290), Vector2d(-220, -220)}) {
+    const Target target = made->step({at({p}), 0}, unused);
+    EXPECT_NEAR((target.position - p).norm(), 300.0, 0.05);
+  }
+}
+
+TEST_P(PotentialInABehaviour, TurnsWithTheNeighboursForEverySelection) {
+  for (const auto& selection : Registry<Selection>::instance().names()) {
+    const auto made =
+        behaviour(kind, {{"potential.kind", GetParam()}, {"selection.kind", selection}});
+    // Near a minimum, where there is one answer: far from any, turning may lead to another.
+    for (const double angle : {0.4, 1.9, 3.0}) {
+      const Neighbours seen = at({{-290, 25}, {-160, -265}, {155, -270}, {310, -15}, {-20, -530}});
+      const Target target = made->step({seen, 0}, unused);
+      const Target other = made->step({turned(seen, rotation(angle)), 0}, unused);
+      EXPECT_LT((other.position - rotation(angle).rotate(target.position)).norm(), 0.02)
+          << selection;
+    }
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Potentials, PotentialInABehaviour,
+                         testing::ValuesIn(Registry<Potential>::instance().names()),
+                         [](const auto& tested) { return tested.param; });
+
+TEST(AttractionRepulsion, GoesByManyNeighboursIfTheSelectionSaysSo) {
+  Neighbours crowd;
+  for (int i = 0; i < 30; ++i) crowd.push_back({{200.0 + 10 * (i % 6), -60.0 + 25.0 * (i / 6)}});
+  const Target target = behaviour(kind, {{"selection.kind", "in_range"}, {"cohesion.kind", "none"}})
+                            ->step({crowd, 0}, unused);
+  EXPECT_EQ(target.reason, Reason::placed);
+  double sum = 0.0;
+  for (const Neighbour& n : crowd) {
+    const double r = (target.position - n.position).norm();
+    sum += 300.0 * 300.0 * 300.0 / (2.0 * r * r) + r - 900.0;
+  }
+  EXPECT_NEAR(target.cost, sum, 1e-9);
+}
+
+TEST(AttractionRepulsion, IsDrawnToAWaypointInTheFrameOfTheOwnPositions) {
+  const auto made = behaviour(kind, {{"cohesion.kind", "waypoint"},
+                                     {"cohesion.waypoint.x_m", 5000.0},
+                                     {"cohesion.waypoint.weight", 1e-4},
+                                     {"combination", "mean"}});
+  const Neighbours lone = at({{0, 300}});
+  const Target from_west = made->step({lone, 0, {0, 0}}, unused);
+  const Target from_east = made->step({lone, 0, {10'000, 0}}, unused);
+  EXPECT_GT(from_west.position.x(), 10.0);
+  EXPECT_LT((from_east.position - Vector2d(-from_west.position.x(), from_west.position.y())).norm(),
+            0.01);
+}
+
+// What cannot be combined -------------------------------------------------------------------------
+
+std::string complaint(std::initializer_list<std::pair<const char*, Setting>> options) {
+  Setting table;
+  for (const auto& [path, value] : options) assign(table, path, value);
+  try {
+    Registry<Behaviour>::instance().make(kind, table, "behaviour");
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST(AttractionRepulsion, RefusesAFormulaThatIsNotFiniteAtItsDistances) {
+  EXPECT_EQ(complaint({{"potential.kind", {"expression", {"swarm.toml", 4}}},
+                       {"potential.expression.formula", {"log(r - s)", {"swarm.toml", 5}}}}),
+            "swarm.toml:5: behaviour.potential.expression: formula \"log(r - s)\": it is not a "
+            "number at r = 0.1 m for s = 300 m; change it, or the range from_m to to_m that it is "
+            "meant for");
+}
+
+TEST(AttractionRepulsion, TakesAFormulaInTheRangeThatItIsMeantFor) {
+  EXPECT_EQ(complaint({{"potential.kind", {"expression", {}}},
+                       {"potential.expression.formula", {"(r-s)^2/log(r/100)", {}}},
+                       {"potential.expression.from_m", {120.0, {}}}}),
+            "");
+}
+
+TEST(AttractionRepulsion, RefusesASeparationOutsideTheRangeOfAFormula) {
+  EXPECT_EQ(
+      complaint(
+          {{"potential.kind", {"expression", {}}}, {"potential.expression.to_m", {200.0, {}}}}),
+      "behaviour.potential.expression: the separation, 300 m, is not between from_m and to_m");
+}
+
+TEST(AttractionRepulsion, RefusesAFormulaThatCannotBeReadWhereItIsWritten) {
+  EXPECT_EQ(complaint({{"potential.expression.formula", {"r + q", {"swarm.toml", 5}}}}),
+            "swarm.toml:5: behaviour.potential.expression: formula \"r + q\": there is no symbol "
+            "\"q\"; known are r (distance, m), s (separation, m) and pi (character 5)");
+}
+
+/// A solver that cannot do anything for anybody.
+struct Refuser final : solvers::Solver {
+  solvers::Solution solve(const solvers::Problem&) const override { return {}; }
+  std::optional<std::string> refuses(const solvers::Problem&) const override {
+    return "needs bounds";
+  }
+  static void declare(Options<Refuser>&) {}
+};
+const Enrol<solvers::Solver, Refuser> refuser{"test_refuser", "needs bounds"};
+
+TEST(AttractionRepulsion, RefusesASolverThatCannotTakeItsProblems) {
+  EXPECT_EQ(complaint({{"solver.kind", {"test_refuser", {"swarm.toml", 9}}}}),
+            "swarm.toml:9: behaviour.solver.test_refuser: needs bounds; choose a solver for two "
+            "unknowns without bounds");
 }
 
 }  // namespace

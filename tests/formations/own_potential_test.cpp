@@ -24,12 +24,12 @@ struct Spring {
   }
 };
 
-const EnrolPotential<Spring> enrolled{"test_spring", "a spring"};
+const EnrolPotential<Spring> enrolled{"spring", "a spring"};
 
 TEST(OwnPotential, IsTakenByABehaviourOnceItIsEnrolled) {
   Setting options;
-  assign(options, "potential.kind", {"test_spring", {}});
-  assign(options, "potential.test_spring.stiffness", {2.0, {}});
+  assign(options, "potential.kind", {"spring", {}});
+  assign(options, "potential.spring.stiffness", {2.0, {}});
   const auto behaviour =
       Registry<Behaviour>::instance().make("attraction_repulsion", options, "behaviour");
 
@@ -42,15 +42,14 @@ TEST(OwnPotential, IsTakenByABehaviourOnceItIsEnrolled) {
 
 TEST(OwnPotential, HasItsOptionsReadAndRefusedLikeAnyOther) {
   Setting options;
-  assign(options, "potential.test_spring.stiffnes", {2.0, {"swarm.toml", 7}});
+  assign(options, "potential.spring.stiffnes", {2.0, {"swarm.toml", 7}});
   try {
     Registry<Behaviour>::instance().make("attraction_repulsion", options, "behaviour");
     FAIL();
   } catch (const InputError& error) {
-    EXPECT_STREQ(
-        error.what(),
-        "swarm.toml:7: behaviour.potential.test_spring has no option \"stiffnes\"; did you "
-        "mean \"stiffness\"?");
+    EXPECT_STREQ(error.what(),
+                 "swarm.toml:7: behaviour.potential.spring has no option \"stiffnes\"; did you "
+                 "mean \"stiffness\"?");
   }
 }
 

@@ -65,6 +65,21 @@ TEST(Planner, RefersTheTargetToWhereTheVehicleIsNow) {
   EXPECT_LT((engineer.planner.target_from(start + Vector2d(16, 3)) - Vector2d(0, -3)).norm(), 1e-9);
 }
 
+TEST(Planner, TellsTheBehaviourWhereTheVehicleIs) {
+  struct Listener final : Behaviour {
+    mutable Vector2d told = Vector2d::Zero();
+    Target step(const Neighbourhood& seen, const Plan&) const override {
+      told = seen.own_position;
+      return Target::hold(Reason::no_neighbour);
+    }
+    bool needs_ids() const override { return false; }
+  };
+  const auto listener = std::make_shared<const Listener>();
+  Planner planner(std::make_shared<const Plan>(cross), listener, "v0");
+  planner.plan(0.0, start);
+  EXPECT_EQ(listener->told, start);
+}
+
 TEST(Planner, PlansFromWhereTheVehicleIsNow) {
   Engineer engineer(cross);
   engineer.hear(heard(cross, 0, {}, {-20, 0}), 0.0, start);

@@ -1,0 +1,43 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <memory>
+#include <span>
+
+#include "shoal/core/registry.hpp"
+#include "shoal/formations/neighbourhood.hpp"
+
+namespace shoal::formations {
+
+/// A cost at one place of the plane, with its derivatives with respect to x and y (m).
+struct PlaneValue {
+  double value = 0.0;
+  Eigen::Vector2d gradient = Eigen::Vector2d::Zero();
+  Eigen::Matrix2d hessian = Eigen::Matrix2d::Zero();
+};
+
+/// A term of the cost that keeps the swarm together: a function of the displacement from an anchor.
+///
+/// Stateless and thread-safe.
+class Cohesion {
+ public:
+  static constexpr const char* family = "cohesion";
+  static constexpr const char* family_meaning = "term of a cost that keeps the swarm together";
+
+  virtual ~Cohesion() = default;
+
+  /// Where it draws to, in metres, own frame: fixed while one problem is solved. `in_range` holds
+  /// at least one neighbour; `own_position` is as in Neighbourhood.
+  virtual Eigen::Vector2d anchor(std::span<const Neighbour> in_range,
+                                 const Eigen::Vector2d& own_position) const = 0;
+
+  /// The term at a place `from_anchor` metres away from it, in metres.
+  virtual PlaneValue at(const Eigen::Vector2d& from_anchor) const = 0;
+};
+
+/// weight |p|^2, with a weight in 1/m.
+inline PlaneValue squared_distance(double weight, const Eigen::Vector2d& p) {
+  return {weight * p.squaredNorm(), 2.0 * weight * p, 2.0 * weight * Eigen::Matrix2d::Identity()};
+}
+
+}  // namespace shoal::formations
