@@ -29,12 +29,12 @@ RegistrationSolution Procrustes::solve() const {
   const double share = 1.0 / weight_;
   const Eigen::Vector2d from_mean = share * from_sum_;
   const Eigen::Vector2d to_mean = share * to_sum_;
-  const double dot = dot_ - from_sum_.dot(to_mean);
-  const double cross = cross_ - (from_sum_.x() * to_mean.y() - from_sum_.y() * to_mean.x());
-  const double from_spread = from_squared_ - from_sum_.dot(from_mean);
-  const double to_spread = to_squared_ - to_sum_.dot(to_mean);
+  const double dot = dot_cross_.x() - from_sum_.dot(to_mean);
+  const double cross = dot_cross_.y() - (from_sum_.x() * to_mean.y() - from_sum_.y() * to_mean.x());
+  const double from_spread = squared_[0] - from_sum_.dot(from_mean);
+  const double to_spread = squared_[1] - to_sum_.dot(to_mean);
   const double squared = dot * dot + cross * cross;
-  const double scale_squared = from_squared_ * to_squared_;
+  const double scale_squared = squared_[0] * squared_[1];
   if (!std::isfinite(squared) || !std::isfinite(scale_squared)) return solution;
 
   // What is left of dot and cross after the means went is rounding, some 1e-15 of the sums.

@@ -92,7 +92,9 @@ class Procrustes {
   Eigen::Vector2d to_origin_ = Eigen::Vector2d::Zero();
   Eigen::Vector2d from_sum_ = Eigen::Vector2d::Zero();
   Eigen::Vector2d to_sum_ = Eigen::Vector2d::Zero();
-  double weight_ = 0.0, dot_ = 0.0, cross_ = 0.0, from_squared_ = 0.0, to_squared_ = 0.0;
+  Eigen::Vector2d dot_cross_ = Eigen::Vector2d::Zero();  // sum of w f . t and w f x t
+  Eigen::Array2d squared_ = Eigen::Array2d::Zero();      // sum of w f^2 and w t^2
+  double weight_ = 0.0;
   bool any_ = false, bad_ = false;
 };
 
@@ -111,10 +113,9 @@ inline void Procrustes::add(const Eigen::Vector2d& from, const Eigen::Vector2d& 
   weight_ += weight;
   from_sum_ += weight * f;
   to_sum_ += weight * t;
-  dot_ += weight * (f.x() * t.x() + f.y() * t.y());
-  cross_ += weight * (f.x() * t.y() - f.y() * t.x());
-  from_squared_ += weight * f.squaredNorm();
-  to_squared_ += weight * t.squaredNorm();
+  dot_cross_ += weight * (f.x() * t + f.y() * Eigen::Vector2d(t.y(), -t.x()));
+  const Eigen::Array2d x(f.x(), t.x()), y(f.y(), t.y());
+  squared_ += weight * (x * x + y * y);
 }
 
 }  // namespace shoal::solvers
