@@ -1,12 +1,62 @@
 #include <cmath>
+#include <memory>
+#include <vector>
 
 #include "shoal/formations/behaviour.hpp"
+#include "shoal/formations/fitting.hpp"
+#include "shoal/solvers/autodiff.hpp"
+#include "shoal/solvers/least_squares.hpp"
+#include "shoal/solvers/solver.hpp"
 
 namespace shoal::formations {
 namespace {
 
+using Eigen::Vector2d;
+
+enum class Normalisation : std::uint8_t { weights, count };
+
+struct PairwiseReferencingOptions : Weights {
+  Normalisation normalisation = Normalisation::weights;
+  Choice<solvers::Loss> loss{"least_squares"};
+  Choice<solvers::Solver> solver{"newton"};
+
+  PairwiseReferencingOptions() { weighting = Weighting::distance; }
+
+  static void declare(Options<PairwiseReferencingOptions>& o) {
+    using P = PairwiseReferencingOptions;
+    o.number("contact_rangeout_m", &P::contact_rangeout_m, "m", above(0),
+             "pairs whose midpoint is further away are ignored");
+    declare_weighting(o,
+                      "weight of a pair: nearness of its midpoint (Alg. 6), or freshness of its "
+                      "pings (the author's program)");
+    o.word("normalisation", &P::normalisation,
+           {{"weights", Normalisation::weights}, {"count", Normalisation::count}},
+           "divide by the sum of weights (Alg. 6), or by the number of pairs (the author's "
+           "program: the target shrinks towards the vehicle as pings age)");
+    o.choice("loss", &P::loss, "what the distance from the place that a pair implies costs");
+    o.choice("solver", &P::solver,
+             "minimises the cost; the loss least_squares has a closed form, the mean");
+  }
+};
+
+/// How far the vehicle is from the places that pairs imply. Unknowns: its position (m, own frame).
+struct DistanceFromPlaces {
+  static constexpr int block_size = 2;
+  std::vector<Vector2d> places;
+
+  int blocks() const { return static_cast<int>(places.size()); }
+
+  template <class T>
+  void operator()(int block, const T* x, T* r) const {
+    const Vector2d& place = places[static_cast<std::size_t>(block)];
+    r[0] = x[0] - place.x();
+    r[1] = x[1] - place.y();
+  }
+};
+
 /// Places the vehicle with respect to every pair of neighbours as planned, and goes to the mean of
-/// these places: Rypkema 2015, sec. 3.5, Alg. 6, Table 3.5. Needs ids.
+/// these places: Rypkema 2015, sec. 3.5, Alg. 6, Table 3.5. Needs ids. With another loss than the
+/// square it goes where the weighted sum of losses is least.
 ///
 /// Algorithm 6 projects from the actual midpoint by the planned angle alone; without the actual
 /// bearing of the pair the target would not turn with the formation (and its sine and cosine are
@@ -14,95 +64,139 @@ namespace {
 /// planned, up to any rotation and translation, the target is exactly the own slot.
 class PairwiseReferencing final : public Behaviour {
  public:
-  enum class Weighting { distance, ping_age, none };
-  enum class Normalisation { weights, count };
-
-  double contact_rangeout_m = 650.0;
-  Weighting weighting = Weighting::distance;
-  Normalisation normalisation = Normalisation::weights;
-  double age_scale_s = 120.0;
-
-  static void declare(Options<PairwiseReferencing>& o) {
-    using P = PairwiseReferencing;
-    o.number("contact_rangeout_m", &P::contact_rangeout_m, "m", above(0),
-             "pairs whose midpoint is further away are ignored");
-    o.word("weighting", &P::weighting,
-           {{"distance", Weighting::distance},
-            {"ping_age", Weighting::ping_age},
-            {"none", Weighting::none}},
-           "weight of a pair: nearness of its midpoint (Alg. 6), or freshness of its pings (the "
-           "author's program)");
-    o.word("normalisation", &P::normalisation,
-           {{"weights", Normalisation::weights}, {"count", Normalisation::count}},
-           "divide by the sum of weights (Alg. 6), or by the number of pairs (the author's "
-           "program: the target shrinks towards the vehicle as pings age)");
-    o.number("age_scale_s", &P::age_scale_s, "s", above(0),
-             "age at which the weight \"ping_age\" has fallen to zero");
+  explicit PairwiseReferencing(const PairwiseReferencingOptions& options)
+      : options_(options), loss_(options.loss.make()), solver_(options.solver.make()) {
+    if (loss_->is_square()) return;
+    const ChoiceSetting& loss = options.loss.setting();
+    if (options.normalisation == Normalisation::count) {
+      require_nothing_against(
+          "does not go with normalisation = \"count\", which shrinks a mean; choose normalisation "
+          "= \"weights\", or the loss least_squares",
+          "loss", loss, loss);
+    }
+    if (auto why = solver_->refuses(pose({{0.0, 0.0}}, {1.0}))) {
+      require_nothing_against(*why + "; choose another solver", "solver", options.solver.setting(),
+                              loss);
+    }
   }
 
   bool needs_ids() const override { return true; }
 
   Target step(const Neighbourhood& seen, const Plan& plan) const override {
-    const Eigen::Vector2d& own_slot = plan.slot(seen.own_slot);
-    Eigen::Vector2d sum = Eigen::Vector2d::Zero();
-    double weights = 0.0;
-    int pairs = 0, in_range = 0, identified = 0;
+    if (!loss_->is_square()) return step_to_least_cost(seen, plan);
+    Vector2d sum = Vector2d::Zero();
+    const Heard heard = visit_places(
+        seen, plan, [&](const Vector2d& place, double weight) { sum += weight * place; });
+    if (const auto why = nothing_to_go_by(heard)) return Target::hold(*why);
+    const bool by_weights = options_.normalisation == Normalisation::weights;
+    return Target::at(sum / (by_weights ? heard.weight : heard.placed), 0.0);
+  }
 
+ private:
+  struct Heard {
+    int identified = 0;  // neighbours
+    int in_range = 0;    // pairs
+    int placed = 0;      // pairs with a direction
+    double weight = 0.0;
+  };
+
+  Target step_to_least_cost(const Neighbourhood& seen, const Plan& plan) const {
+    std::vector<Vector2d> places;
+    std::vector<double> weights;
+    const Heard heard = visit_places(seen, plan, [&](const Vector2d& place, double weight) {
+      places.push_back(place);
+      weights.push_back(weight);
+    });
+    if (const auto why = nothing_to_go_by(heard)) return Target::hold(*why);
+    const solvers::Solution solution = solver_->solve(pose(std::move(places), std::move(weights)));
+    if (!solution.usable()) return Target::hold(Reason::solver_failed);
+    return Target::at(solution.x.head<2>(), solution.cost);
+  }
+
+  /// The sum of weight * loss(|x - place|^2).
+  ///
+  /// Robust costs have several minima and Tukey's is flat far away, so they start from the cheapest
+  /// of the mean and up to 64 places (of more, 64 that are evenly spread over the pairs).
+  solvers::Problem pose(std::vector<Vector2d> places, std::vector<double> weights) const {
+    Vector2d start = Vector2d::Zero();
+    double sum = 0.0;
+    for (std::size_t i = 0; i < places.size(); ++i) {
+      start += weights[i] * places[i];
+      sum += weights[i];
+    }
+    start /= sum;
+    const std::vector<Vector2d> candidates = loss_->is_square() ? std::vector<Vector2d>{} : places;
+    solvers::Problem problem = solvers::least_squares_problem(
+        start, {solvers::differentiated_blocks<2>(DistanceFromPlaces{std::move(places)}), loss_,
+                std::move(weights)});
+    double least = problem.evaluate(problem.start.data());
+    const std::size_t count = std::min<std::size_t>(candidates.size(), 64);
+    for (std::size_t k = 0; k < count; ++k) {
+      const Vector2d& place = candidates[k * candidates.size() / count];
+      const double cost = problem.evaluate(place.data());
+      if (!(cost < least)) continue;
+      least = cost;
+      problem.start = place;
+    }
+    return problem;
+  }
+
+  /// Calls visit(place, weight) for every pair of identified neighbours in range.
+  template <class Visit>
+  Heard visit_places(const Neighbourhood& seen, const Plan& plan, Visit visit) const {
+    const Vector2d& own_slot = plan.slot(seen.own_slot);
+    Heard heard;
     for (std::size_t i = 0; i < seen.neighbours.size(); ++i) {
       const Neighbour& a = seen.neighbours[i];
       if (a.slot == anonymous) continue;
-      ++identified;
+      ++heard.identified;
       for (std::size_t j = i + 1; j < seen.neighbours.size(); ++j) {
         const Neighbour& b = seen.neighbours[j];
         if (b.slot == anonymous) continue;
-        const Eigen::Vector2d midpoint = 0.5 * (a.position + b.position);
-        const double distance = midpoint.norm();
-        if (distance > contact_rangeout_m) continue;
-        ++in_range;
+        const Vector2d midpoint = 0.5 * (a.position + b.position);
+        if (!options_.in_range(midpoint)) continue;
+        ++heard.in_range;
 
         // The rotation from the planned to the actual direction of the pair.
-        const Eigen::Vector2d planned = plan.slot(b.slot) - plan.slot(a.slot);
-        const Eigen::Vector2d actual = b.position - a.position;
+        const Vector2d planned = plan.slot(b.slot) - plan.slot(a.slot);
+        const Vector2d actual = b.position - a.position;
         const double lengths = std::sqrt(planned.squaredNorm() * actual.squaredNorm());
         if (!(lengths > 0.0)) continue;  // coincident neighbours have no direction
         const double cosine = planned.dot(actual) / lengths;
         const double sine = (planned.x() * actual.y() - planned.y() * actual.x()) / lengths;
 
-        const Eigen::Vector2d offset = own_slot - 0.5 * (plan.slot(a.slot) + plan.slot(b.slot));
-        const Eigen::Vector2d place{midpoint.x() + cosine * offset.x() - sine * offset.y(),
-                                    midpoint.y() + sine * offset.x() + cosine * offset.y()};
-        const double weight = weight_of(distance, 0.5 * (a.age_s + b.age_s));
-        sum += weight * place;
-        weights += weight;
-        ++pairs;
+        const Vector2d offset = own_slot - 0.5 * (plan.slot(a.slot) + plan.slot(b.slot));
+        const Vector2d place{midpoint.x() + cosine * offset.x() - sine * offset.y(),
+                             midpoint.y() + sine * offset.x() + cosine * offset.y()};
+        const double weight = options_.weight(midpoint, 0.5 * (a.age_s + b.age_s));
+        visit(place, weight);
+        heard.weight += weight;
+        ++heard.placed;
       }
     }
-    if (identified < 2) {
-      return Target::hold(identified == 0 ? Reason::no_neighbour : Reason::one_neighbour);
-    }
-    if (in_range == 0) return Target::hold(Reason::no_neighbour);
-    const double divisor = normalisation == Normalisation::weights ? weights : pairs;
-    if (!(divisor > 0.0)) return Target::hold(Reason::degenerate);
-    return Target::at(sum / divisor, 0.0);
+    return heard;
   }
 
- private:
-  double weight_of(double midpoint_distance, double age_s) const {
-    switch (weighting) {
-      case Weighting::distance:
-        return 1.0 - midpoint_distance / contact_rangeout_m;
-      case Weighting::ping_age:
-        return std::max(0.0, 1.0 - age_s / age_scale_s);
-      case Weighting::none:
-        break;
-    }
-    return 1.0;
+  std::optional<Reason> nothing_to_go_by(const Heard& heard) const {
+    if (heard.identified == 0) return Reason::no_neighbour;
+    if (heard.identified == 1) return Reason::one_neighbour;
+    if (heard.in_range == 0) return Reason::no_neighbour;
+    const bool by_weights = options_.normalisation == Normalisation::weights;
+    if (!((by_weights ? heard.weight : heard.placed) > 0.0)) return Reason::degenerate;
+    return std::nullopt;
   }
+
+  PairwiseReferencingOptions options_;
+  std::shared_ptr<const solvers::Loss> loss_;
+  std::shared_ptr<const solvers::Solver> solver_;
 };
 
-const Enrol<Behaviour, PairwiseReferencing> enrolled{
+const Enrol<Behaviour, PairwiseReferencingOptions> enrolled{
     "pairwise_referencing",
-    "mean of the places that each pair of identified neighbours implies (Rypkema 2015, sec. 3.5)"};
+    "mean of the places that each pair of identified neighbours implies (Rypkema 2015, sec. 3.5)",
+    [](const PairwiseReferencingOptions& options) {
+      return std::make_unique<PairwiseReferencing>(options);
+    }};
 
 }  // namespace
 }  // namespace shoal::formations

@@ -1,49 +1,93 @@
+#include <memory>
+#include <vector>
+
 #include "shoal/formations/behaviour.hpp"
+#include "shoal/formations/fitting.hpp"
 #include "shoal/solvers/registration/registration.hpp"
 
 namespace shoal::formations {
 namespace {
 
-/// Moves the plan rigidly onto what was heard and goes to the own slot: Rypkema 2015, sec. 3.6,
-/// eq. 3.8, Alg. 7, Table 3.6. Needs ids.
-class RigidRegistration final : public Behaviour {
- public:
-  double contact_rangeout_m = 650.0;
+struct RigidRegistrationOptions : Weights {
   double ownship_weight = 1.0;
+  Choice<solvers::Loss> loss{"least_squares"};
+  Choice<solvers::RegistrationSolver> registration{"procrustes"};
 
-  static void declare(Options<RigidRegistration>& o) {
-    using R = RigidRegistration;
+  static void declare(Options<RigidRegistrationOptions>& o) {
+    using R = RigidRegistrationOptions;
     o.number("contact_rangeout_m", &R::contact_rangeout_m, "m", above(0),
              "neighbours further away are ignored");
     o.number("ownship_weight", &R::ownship_weight, "", in(0, 1e3),
              "weight of the own position; the lower, the closer the plan follows the neighbours");
+    declare_weighting(o,
+                      "weight of a neighbour: always 1 (sec. 3.6), its nearness, or the freshness "
+                      "of its pings, as pairwise_referencing weighs pairs");
+    o.choice("loss", &R::loss, "what the distance of a vehicle from its place in the plan costs");
+    o.choice("registration", &R::registration, "finds the motion of the plan");
+  }
+};
+
+/// Moves the plan rigidly onto what was heard and goes to the own slot: Rypkema 2015, sec. 3.6,
+/// eq. 3.8, Alg. 7, Table 3.6. Needs ids.
+class RigidRegistration final : public Behaviour {
+ public:
+  explicit RigidRegistration(const RigidRegistrationOptions& options)
+      : options_(options), loss_(options.loss.make()), registration_(options.registration.make()) {
+    require_nothing_against(registration_->refuses({{}, loss_.get()}), "registration",
+                            options.registration.setting(), options.loss.setting());
   }
 
   bool needs_ids() const override { return true; }
 
   Target step(const Neighbourhood& seen, const Plan& plan) const override {
-    solvers::Procrustes registration;
-    const Eigen::Vector2d& own_slot = plan.slot(seen.own_slot);
-    if (ownship_weight > 0.0) {
-      registration.add(own_slot, Eigen::Vector2d::Zero(), ownship_weight);
-    }
-    bool heard = false;
-    for (const Neighbour& n : seen.neighbours) {
-      if (n.slot == anonymous || n.position.norm() > contact_rangeout_m) continue;
-      registration.add(plan.slot(n.slot), n.position, 1.0);
-      heard = true;
-    }
-    if (!heard) return Target::hold(Reason::no_neighbour);
+    thread_local std::vector<solvers::PointPair> storage;
+    const std::span<const solvers::PointPair> pairs = pose(seen, plan, storage);
+    const bool own_counts = options_.ownship_weight > 0.0;
+    if (pairs.size() <= (own_counts ? 1 : 0)) return Target::hold(Reason::no_neighbour);
 
-    const solvers::RegistrationSolution fit = registration.solve();
-    if (fit.status != solvers::RegistrationStatus::fitted) return Target::hold(Reason::degenerate);
-    return Target::at(fit.T_to_from * own_slot, fit.cost);
+    const solvers::RegistrationSolution fit = registration_->solve({pairs, loss_.get()});
+    switch (fit.status) {
+      case solvers::RegistrationStatus::fitted:
+      case solvers::RegistrationStatus::not_converged:
+        return Target::at(fit.T_to_from * plan.slot(seen.own_slot), fit.cost);
+      case solvers::RegistrationStatus::diverged:
+        return Target::hold(Reason::solver_failed);
+      case solvers::RegistrationStatus::translation_only:
+      case solvers::RegistrationStatus::bad_input:
+        break;
+    }
+    return Target::hold(Reason::degenerate);
   }
+
+ private:
+  /// The slots of those who were heard, and where they are; before them the own slot, if it
+  /// counts. `storage` only grows.
+  std::span<const solvers::PointPair> pose(const Neighbourhood& seen, const Plan& plan,
+                                           std::vector<solvers::PointPair>& storage) const {
+    const std::size_t most = seen.neighbours.size() + 1;
+    if (storage.size() < most) storage.resize(most);
+    solvers::PointPair* end = storage.data();
+    if (options_.ownship_weight > 0.0) {
+      *end++ = {plan.slot(seen.own_slot), Eigen::Vector2d::Zero(), options_.ownship_weight};
+    }
+    for (const Neighbour& n : seen.neighbours) {
+      if (n.slot == anonymous || !options_.in_range(n.position)) continue;
+      *end++ = {plan.slot(n.slot), n.position, options_.weight(n.position, n.age_s)};
+    }
+    return {storage.data(), end};
+  }
+
+  RigidRegistrationOptions options_;
+  std::shared_ptr<const solvers::Loss> loss_;
+  std::shared_ptr<const solvers::RegistrationSolver> registration_;
 };
 
-const Enrol<Behaviour, RigidRegistration> enrolled{
+const Enrol<Behaviour, RigidRegistrationOptions> enrolled{
     "rigid_registration",
-    "rigid motion of the plan onto the identified neighbours (Rypkema 2015, sec. 3.6)"};
+    "rigid motion of the plan onto the identified neighbours (Rypkema 2015, sec. 3.6)",
+    [](const RigidRegistrationOptions& options) {
+      return std::make_unique<RigidRegistration>(options);
+    }};
 
 }  // namespace
 }  // namespace shoal::formations

@@ -2,26 +2,77 @@
 
 #include <Eigen/Core>
 #include <cstdint>
+#include <limits>
+#include <optional>
 #include <span>
+#include <string>
 #include <string_view>
 
+#include "shoal/core/registry.hpp"
 #include "shoal/core/transform.hpp"
+#include "shoal/solvers/loss.hpp"
 
 namespace shoal::solvers {
 
+/// Two points that belong together, each in metres in its own frame.
+struct PointPair {
+  Eigen::Vector2d from, to;
+  double weight = 1.0;  ///< at least 0; a pair of weight zero does not count
+};
+
+/// The rigid motion that lays the `from` points best onto their `to` points: minimises
+/// sum weight * loss(|R from + t - to|^2) over rotations and translations, never reflections
+/// (Rypkema 2015, eq. 3.8, with any loss).
+struct RegistrationProblem {
+  std::span<const PointPair> pairs;
+  const Loss* loss = nullptr;  ///< nullptr: the square
+
+  bool is_square() const { return !loss || loss->is_square(); }
+};
+
 enum class RegistrationStatus : std::uint8_t {
-  fitted,
+  fitted,            ///< to a minimum: the least of all with the square, a local one otherwise
   translation_only,  ///< the points do not fix the rotation (fewer than two distinct ones)
-  bad_input,         ///< no points, no positive weight, or not finite
+  not_converged,     ///< the best motion found, but no minimum: more evaluations might help
+  diverged,          ///< no motion of finite cost was found
+  bad_input,         ///< no pairs, no positive or a negative weight, not finite, or refused
 };
 std::string_view name_of(RegistrationStatus status);
 
 struct RegistrationSolution {
-  Transform2 T_to_from;  ///< takes `from` points to `to` points; the identity rotation if unfixed
-  double cost = 0.0;     ///< weighted sum of squared residuals, m^2
-  RegistrationStatus status = RegistrationStatus::bad_input;
+  static constexpr double unset = std::numeric_limits<double>::quiet_NaN();
 
-  bool usable() const { return status != RegistrationStatus::bad_input; }
+  /// Takes `from` points to `to` points; NaN until set, the identity rotation if unfixed.
+  Transform2 T_to_from{unset, unset, Eigen::Vector2d(unset, unset)};
+  double cost = unset;  ///< weighted sum of losses, m^2
+  RegistrationStatus status = RegistrationStatus::bad_input;
+  int evaluations = 0;  ///< of the cost by a descent; 0 for closed forms
+
+  /// True if the motion may be acted upon.
+  bool usable() const {
+    return status == RegistrationStatus::fitted || status == RegistrationStatus::translation_only ||
+           status == RegistrationStatus::not_converged;
+  }
+};
+
+/// Finds the best rigid motion of known pairs.
+///
+/// Stateless: one solver may serve many threads. Never throws for numerical trouble (that is a
+/// status); throws what the loss throws. The same problem gives the same bits.
+class RegistrationSolver {
+ public:
+  static constexpr const char* family = "registration";
+  static constexpr const char* family_meaning = "finds the best rigid motion of known pairs";
+
+  virtual ~RegistrationSolver() = default;
+  virtual RegistrationSolution solve(const RegistrationProblem& problem) const = 0;
+
+  /// Why this solver cannot take problems of that loss, whatever the pairs, or nothing if it can. A
+  /// problem that is refused is answered with `bad_input`.
+  virtual std::optional<std::string> refuses(const RegistrationProblem& problem) const = 0;
+
+  /// Why threads that use this solver wait for one another, or nothing if they do not.
+  virtual std::optional<std::string> one_at_a_time() const { return std::nullopt; }
 };
 
 /// Weighted sums of matched pairs, from which the best rigid motion follows in closed form.
@@ -41,7 +92,9 @@ class Procrustes {
   Eigen::Vector2d to_origin_ = Eigen::Vector2d::Zero();
   Eigen::Vector2d from_sum_ = Eigen::Vector2d::Zero();
   Eigen::Vector2d to_sum_ = Eigen::Vector2d::Zero();
-  double weight_ = 0.0, dot_ = 0.0, cross_ = 0.0, from_squared_ = 0.0, to_squared_ = 0.0;
+  Eigen::Vector2d dot_cross_ = Eigen::Vector2d::Zero();  // sum of w f . t and w f x t
+  Eigen::Array2d squared_ = Eigen::Array2d::Zero();      // sum of w f^2 and w t^2
+  double weight_ = 0.0;
   bool any_ = false, bad_ = false;
 };
 
@@ -60,10 +113,9 @@ inline void Procrustes::add(const Eigen::Vector2d& from, const Eigen::Vector2d& 
   weight_ += weight;
   from_sum_ += weight * f;
   to_sum_ += weight * t;
-  dot_ += weight * (f.x() * t.x() + f.y() * t.y());
-  cross_ += weight * (f.x() * t.y() - f.y() * t.x());
-  from_squared_ += weight * f.squaredNorm();
-  to_squared_ += weight * t.squaredNorm();
+  dot_cross_ += weight * (f.x() * t + f.y() * Eigen::Vector2d(t.y(), -t.x()));
+  const Eigen::Array2d x(f.x(), t.x()), y(f.y(), t.y());
+  squared_ += weight * (x * x + y * y);
 }
 
 }  // namespace shoal::solvers

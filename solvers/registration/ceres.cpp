@@ -1,0 +1,10 @@
+#include "shoal/solvers/registration/descent.hpp"
+
+namespace shoal::solvers {
+namespace {
+
+const EnrolDescent<"ceres_least_squares"> enrolled{
+    "ceres", "Ceres: Levenberg-Marquardt on the residuals, for any loss"};
+
+}  // namespace
+}  // namespace shoal::solvers

@@ -1,0 +1,10 @@
+#include "shoal/solvers/registration/descent.hpp"
+
+namespace shoal::solvers {
+namespace {
+
+const EnrolDescent<"ipopt"> enrolled{
+    "ipopt", "Ipopt: interior point, for any loss; one solve at a time in a process"};
+
+}  // namespace
+}  // namespace shoal::solvers
