@@ -23,7 +23,8 @@ double Trial::vehicle_seconds_per_wall_s() const {
 
 Trial run_trial(const scenarios::Scenario& scenario, const TrialSettings& settings) {
   Trial trial{.scenario = scenario, .results = {}, .world = nullptr, .record = nullptr};
-  trial.world = std::make_unique<scenarios::World>(scenario, settings.threads);
+  trial.world =
+      std::make_unique<scenarios::World>(scenario, settings.threads, settings.behaviour_hook);
 
   std::vector<std::unique_ptr<Measure>> measures = all_measures();
   std::vector<scenarios::Observer*> observers;

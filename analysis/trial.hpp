@@ -23,6 +23,7 @@ struct Trial {
 struct TrialSettings {
   int threads = 1;
   bool record = true;  ///< at trial.record_every_s, if that is above 0
+  scenarios::BehaviourHook behaviour_hook = {};
 };
 
 /// Runs a scenario. The measures are the same for any number of threads, with or without recording.

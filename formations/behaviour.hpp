@@ -7,6 +7,7 @@
 #include "shoal/core/registry.hpp"
 #include "shoal/formations/neighbourhood.hpp"
 #include "shoal/formations/plan.hpp"
+#include "shoal/formations/posed_problems.hpp"
 
 namespace shoal::formations {
 
@@ -45,6 +46,10 @@ class Behaviour {
 
   virtual ~Behaviour() = default;
   virtual Target step(const Neighbourhood& seen, const Plan& plan) const = 0;
+
+  /// Shows the problems that step() would solve, and the later ones of several as they follow from
+  /// its own answers to the earlier. Nothing where step() would hold without solving any.
+  virtual void pose(const Neighbourhood& seen, const Plan& plan, ProblemViewer& viewer) const = 0;
 
   /// True if anonymous neighbours are of no use to it.
   virtual bool needs_ids() const = 0;

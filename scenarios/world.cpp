@@ -21,7 +21,7 @@ constexpr std::int64_t never = std::numeric_limits<std::int64_t>::max();
 
 }  // namespace
 
-World::World(const Scenario& scenario, int threads)
+World::World(const Scenario& scenario, int threads, const BehaviourHook& hook)
     : scenario_(scenario),
       threads_(threads),
       random_(static_cast<std::uint64_t>(scenario.trial.seed)),
@@ -38,7 +38,8 @@ World::World(const Scenario& scenario, int threads)
   const std::vector<Start> starts = scenario.swarm.start.make()->place(*plan_, random_);
   swarm_ = scenario.swarm.vehicle.make()->launch(starts, scenario.energy, random_, tick_s);
 
-  const std::shared_ptr<const formations::Behaviour> behaviour = scenario.behaviour.make();
+  std::shared_ptr<const formations::Behaviour> behaviour = scenario.behaviour.make();
+  if (hook) behaviour = hook(std::move(behaviour), *plan_);
   for (std::size_t i = 0; i < n; ++i) {
     planners_.emplace_back(plan_, behaviour, plan_->name(static_cast<int>(i)),
                            scenario.ping_filter);

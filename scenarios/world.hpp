@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <span>
 #include <vector>
@@ -22,6 +23,10 @@ class Observer {
   virtual void observe(const World& world) = 0;
 };
 
+/// Puts something between the vehicles and their behaviour, as to record what it is asked.
+using BehaviourHook = std::function<std::shared_ptr<const formations::Behaviour>(
+    std::shared_ptr<const formations::Behaviour>, const formations::Plan&)>;
+
 /// What one vehicle has done since mission start.
 struct Logbook {
   double thrusting_s = 0.0;        ///< time under a command to move (not latched as drifting)
@@ -39,7 +44,7 @@ struct Logbook {
 class World {
  public:
   /// Opens everything the scenario names. Throws InputError.
-  explicit World(const Scenario& scenario, int threads = 1);
+  explicit World(const Scenario& scenario, int threads = 1, const BehaviourHook& hook = {});
   ~World();
 
   /// Runs the mission to its end. Each observer looks at time zero, then at its own interval, and

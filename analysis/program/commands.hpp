@@ -11,6 +11,24 @@ struct RunArguments {
   std::string seed;  ///< as written; empty: the scenario's own
   std::string out;
   int threads = 1;
+  std::string problems;  ///< file for the problems posed; empty: do not record them
+};
+
+struct CorpusArguments {
+  std::string file;
+  double duration_s = 1800.0;
+  int keep = 150;
+  std::string seed = "1";
+};
+
+struct SolveArguments {
+  std::string corpus;
+  std::vector<std::string> solvers;
+  std::vector<std::string> sets;
+  std::string reference;
+  double same_within_m = 0.01;
+  std::string format = "text";
+  std::string profiles;
 };
 
 // Each command prints to stdout, throws InputError or SystemError, and knows nothing of CLI11.
@@ -18,5 +36,7 @@ void run(const RunArguments& arguments);
 void list(const std::string& family);
 void describe(const std::string& name_or_key);
 void check(const std::vector<std::string>& files);
+void corpus(const CorpusArguments& arguments);
+void solve(const SolveArguments& arguments);
 
 }  // namespace shoal::program

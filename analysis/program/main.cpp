@@ -73,6 +73,8 @@ int main(int argc, char** argv) {
       ->add_option("--threads", run.threads,
                    "threads for large swarms; the numbers do not depend on it")
       ->check(CLI::Range(1, 1024));
+  run_command->add_option("--record-problems", run.problems,
+                          "file for all problems that the behaviour poses, for shoal solve");
   run_command->callback([&] { command = [&] { shoal::program::run(run); }; });
 
   std::string family;
@@ -93,6 +95,45 @@ int main(int argc, char** argv) {
   check_command->add_option("files", files, "scenario (.toml), plan or start (.csv), current (.nc)")
       ->required();
   check_command->callback([&] { command = [&] { shoal::program::check(files); }; });
+
+  shoal::program::CorpusArguments corpus;
+  CLI::App* corpus_command = app.add_subcommand(
+      "corpus", "Record problems of every scenario of the library with every behaviour");
+  corpus_command->add_option("file", corpus.file, "where to write them")->required();
+  corpus_command->add_option("--duration", corpus.duration_s, "seconds of every trial")
+      ->capture_default_str();
+  corpus_command->add_option("--keep", corpus.keep, "situations kept of every trial, evenly spread")
+      ->check(CLI::Range(1, 1000000))
+      ->capture_default_str();
+  corpus_command->add_option("--seed", corpus.seed, "seed of the trials")->capture_default_str();
+  corpus_command->callback([&] { command = [&] { shoal::program::corpus(corpus); }; });
+
+  shoal::program::SolveArguments solve;
+  CLI::App* solve_command =
+      app.add_subcommand("solve", "Compare solvers side by side on recorded problems");
+  solve_command->add_option("problems", solve.corpus, "a file of shoal run --record-problems")
+      ->required();
+  solve_command
+      ->add_option("--solvers", solve.solvers, "NAME,NAME,...: of any family (shoal list solvers)")
+      ->delimiter(',')
+      ->required();
+  solve_command
+      ->add_option("--set", solve.sets,
+                   "FAMILY.SOLVER.OPTION=VALUE, as solver.newton.x_tolerance_m=1e-6")
+      ->expected(1)
+      ->take_all();
+  solve_command->add_option("--reference", solve.reference,
+                            "solver whose minima are the same ones; default: the first");
+  solve_command
+      ->add_option("--same-within", solve.same_within_m,
+                   "metres within which two minima are the same")
+      ->check(CLI::NonNegativeNumber)
+      ->capture_default_str();
+  solve_command->add_option("--format", solve.format, "text, csv, markdown or latex")
+      ->capture_default_str();
+  solve_command->add_option("--profiles", solve.profiles,
+                            "CSV file for Dolan and Moré's performance profiles");
+  solve_command->callback([&] { command = [&] { shoal::program::solve(solve); }; });
 
   try {
     app.parse(argc, argv);

@@ -3,6 +3,7 @@
 #include <filesystem>
 
 #include "commands.hpp"
+#include "shoal/analysis/problem_recorder.hpp"
 #include "shoal/analysis/trial.hpp"
 #include "shoal/core/text.hpp"
 #include "shoal/scenarios/toml_file.hpp"
@@ -36,11 +37,23 @@ void run(const RunArguments& arguments) {
   const std::string name = file.stem().string();
   const std::filesystem::path out = arguments.out.empty() ? "out/" + name : arguments.out;
   analysis::require_writable(out);
+  const std::filesystem::path problems = arguments.problems;
+  analysis::ProblemRecorder recorder;
+  analysis::TrialSettings settings{.threads = arguments.threads, .record = true};
+  if (!problems.empty()) {
+    analysis::require_writable(std::filesystem::absolute(problems).parent_path());
+    settings.behaviour_hook = recorder.hook();
+  }
 
-  const analysis::Trial trial =
-      analysis::run_trial(scenario, {.threads = arguments.threads, .record = true});
+  const analysis::Trial trial = analysis::run_trial(scenario, settings);
   analysis::write_trial(trial, name, out);
   print_summary(trial, name);
+  if (!problems.empty()) {
+    const analysis::Corpus corpus = recorder.corpus(scenario, name, trial.world->plan());
+    analysis::write_corpus(corpus, problems);
+    fmt::print("written: {}, {} situations in which problems were posed\n", problems.string(),
+               corpus.situations.size());
+  }
   fmt::print("written: {}/{{scenario.toml,{}summary.json}}\n", out.string(),
              trial.record ? "run.nc," : "");
 }

@@ -42,21 +42,45 @@ class AssignmentRegistration final : public Behaviour {
     collect(seen, plan.size(), points);
     if (points.size() < 2) return Target::hold(Reason::no_neighbour);
 
-    const solvers::MatchingSolution match =
-        matcher_->solve({points, plan.slots(), options_.ownship_weight, options_.delta_theta_deg});
+    const solvers::MatchingSolution match = matcher_->solve(matching(points, plan));
     if (!match.usable()) return Target::hold(Reason::solver_failed);
 
+    thread_local std::vector<solvers::PointPair> pairs;
+    pair_up(points, match, plan, pairs);
     solvers::Procrustes registration;
-    for (std::size_t i = 0; i < points.size(); ++i) {
-      const double weight = i == 0 ? options_.ownship_weight : 1.0;
-      if (weight > 0.0) registration.add(plan.slot(match.slot_of_point[i]), points[i], weight);
-    }
+    for (const solvers::PointPair& p : pairs) registration.add(p.from, p.to, p.weight);
     const solvers::RegistrationSolution fit = registration.solve();
     if (fit.status != solvers::RegistrationStatus::fitted) return Target::hold(Reason::degenerate);
     return Target::at(fit.T_to_from * plan.slot(match.slot_of_point[0]), match.cost);
   }
 
+  void pose(const Neighbourhood& seen, const Plan& plan, ProblemViewer& viewer) const override {
+    std::vector<Eigen::Vector2d> points;
+    collect(seen, plan.size(), points);
+    if (points.size() < 2) return;
+    viewer.see(matching(points, plan));
+    const solvers::MatchingSolution match = matcher_->solve(matching(points, plan));
+    if (!match.usable()) return;
+    std::vector<solvers::PointPair> pairs;
+    pair_up(points, match, plan, pairs);
+    viewer.see(solvers::RegistrationProblem{pairs});
+  }
+
  private:
+  solvers::MatchingProblem matching(std::span<const Eigen::Vector2d> points,
+                                    const Plan& plan) const {
+    return {points, plan.slots(), options_.ownship_weight, options_.delta_theta_deg};
+  }
+
+  void pair_up(std::span<const Eigen::Vector2d> points, const solvers::MatchingSolution& match,
+               const Plan& plan, std::vector<solvers::PointPair>& pairs) const {
+    pairs.clear();
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      const double weight = i == 0 ? options_.ownship_weight : 1.0;
+      if (weight > 0.0) pairs.push_back({plan.slot(match.slot_of_point[i]), points[i], weight});
+    }
+  }
+
   // The own position, then the neighbours in range. A plan of N slots has room for N - 1
   // neighbours; if more are heard (tracks of vehicles that have gone), the nearest count.
   void collect(const Neighbourhood& seen, int slots, std::vector<Eigen::Vector2d>& points) const {

@@ -1,8 +1,8 @@
 #include <boost/container/small_vector.hpp>
 #include <limits>
 #include <memory>
+#include <optional>
 #include <utility>
-#include <variant>
 #include <vector>
 
 #include "shoal/formations/behaviour.hpp"
@@ -54,8 +54,7 @@ class AttractionRepulsionCost final : public solvers::Objective {
   }
 
   std::pair<Objective*, bool> copy_into(void* storage, std::size_t size) const override {
-    if (sizeof(*this) <= size) return {new (storage) AttractionRepulsionCost(*this), false};
-    return {new AttractionRepulsionCost(*this), true};
+    return solvers::copied_into(*this, storage, size);
   }
 };
 // What a Problem holds in place: posing one must not allocate.
@@ -70,7 +69,7 @@ struct AttractionRepulsionOptions {
   Choice<Selection> selection{"two_neighbours"};
   Choice<Cohesion> cohesion{"centroid"};
   Choice<Potential> potential{"thesis"};
-  Choice<solvers::Solver> solver{"nlopt.lbfgs"};
+  Choice<solvers::Solver> solver{"newton"};
 
   static void declare(Options<AttractionRepulsionOptions>& o) {
     using A = AttractionRepulsionOptions;
@@ -119,25 +118,28 @@ class AttractionRepulsion final : public Behaviour {
   bool needs_ids() const override { return false; }
 
   Target step(const Neighbourhood& seen, const Plan&) const override {
-    const auto posed = pose(seen);
-    if (const Reason* why = std::get_if<Reason>(&posed)) return Target::hold(*why);
-    const solvers::Solution solution = solver_->solve(std::get<solvers::Problem>(posed));
+    const auto problem = problem_of(seen);
+    if (!problem) return Target::hold(Reason::no_neighbour);
+    const solvers::Solution solution = solver_->solve(*problem);
     if (!solution.usable()) return Target::hold(Reason::solver_failed);
     return Target::at(solution.x.head<2>(), solution.cost);
   }
 
+  void pose(const Neighbourhood& seen, const Plan&, ProblemViewer& viewer) const override {
+    if (const auto problem = problem_of(seen)) viewer.see(*problem);
+  }
+
  private:
-  /// The problem of a vehicle, valid as long as this behaviour, or why there is none.
-  std::variant<solvers::Problem, Reason> pose(const Neighbourhood& seen) const {
+  /// The problem of a vehicle, valid as long as this behaviour; nothing if nobody is in range.
+  std::optional<solvers::Problem> problem_of(const Neighbourhood& seen) const {
     thread_local std::vector<Neighbour> in_range;
     in_range.clear();
     for (const Neighbour& n : seen.neighbours) {
       if (n.position.norm() <= options_.contact_rangeout_m) in_range.push_back(n);
     }
     const AttractionRepulsionCost cost = cost_of(in_range, seen.own_position);
-    if (cost.selected.empty()) return Reason::no_neighbour;
-    return std::variant<solvers::Problem, Reason>(std::in_place_type<solvers::Problem>,
-                                                  Eigen::Vector2d::Zero(), cost);
+    if (cost.selected.empty()) return std::nullopt;
+    return std::optional<solvers::Problem>(std::in_place, Eigen::Vector2d::Zero(), cost);
   }
 
   AttractionRepulsionCost cost_of(std::span<const Neighbour> in_range,

@@ -1,5 +1,6 @@
 #include <cmath>
 #include <memory>
+#include <variant>
 #include <vector>
 
 #include "shoal/formations/behaviour.hpp"
@@ -74,7 +75,7 @@ class PairwiseReferencing final : public Behaviour {
           "= \"weights\", or the loss least_squares",
           "loss", loss, loss);
     }
-    if (auto why = solver_->refuses(pose({{0.0, 0.0}}, {1.0}))) {
+    if (auto why = solver_->refuses(problem_of({{0.0, 0.0}}, {1.0}))) {
       require_nothing_against(*why + "; choose another solver", "solver", options.solver.setting(),
                               loss);
     }
@@ -92,6 +93,12 @@ class PairwiseReferencing final : public Behaviour {
     return Target::at(sum / (by_weights ? heard.weight : heard.placed), 0.0);
   }
 
+  /// The least squares that the mean solves; the shrinking by normalisation = "count" comes after.
+  void pose(const Neighbourhood& seen, const Plan& plan, ProblemViewer& viewer) const override {
+    const auto posed = problem_of(seen, plan);
+    if (const auto* problem = std::get_if<solvers::Problem>(&posed)) viewer.see(*problem);
+  }
+
  private:
   struct Heard {
     int identified = 0;  // neighbours
@@ -101,23 +108,31 @@ class PairwiseReferencing final : public Behaviour {
   };
 
   Target step_to_least_cost(const Neighbourhood& seen, const Plan& plan) const {
+    const auto posed = problem_of(seen, plan);
+    if (const Reason* why = std::get_if<Reason>(&posed)) return Target::hold(*why);
+    const solvers::Solution solution = solver_->solve(std::get<solvers::Problem>(posed));
+    if (!solution.usable()) return Target::hold(Reason::solver_failed);
+    return Target::at(solution.x.head<2>(), solution.cost);
+  }
+
+  std::variant<solvers::Problem, Reason> problem_of(const Neighbourhood& seen,
+                                                    const Plan& plan) const {
     std::vector<Vector2d> places;
     std::vector<double> weights;
     const Heard heard = visit_places(seen, plan, [&](const Vector2d& place, double weight) {
       places.push_back(place);
       weights.push_back(weight);
     });
-    if (const auto why = nothing_to_go_by(heard)) return Target::hold(*why);
-    const solvers::Solution solution = solver_->solve(pose(std::move(places), std::move(weights)));
-    if (!solution.usable()) return Target::hold(Reason::solver_failed);
-    return Target::at(solution.x.head<2>(), solution.cost);
+    if (const auto why = nothing_to_go_by(heard)) return *why;
+    if (!(heard.weight > 0.0)) return Reason::degenerate;
+    return problem_of(std::move(places), std::move(weights));
   }
 
   /// The sum of weight * loss(|x - place|^2).
   ///
   /// Robust costs have several minima and Tukey's is flat far away, so they start from the cheapest
   /// of the mean and up to 64 places (of more, 64 that are evenly spread over the pairs).
-  solvers::Problem pose(std::vector<Vector2d> places, std::vector<double> weights) const {
+  solvers::Problem problem_of(std::vector<Vector2d> places, std::vector<double> weights) const {
     Vector2d start = Vector2d::Zero();
     double sum = 0.0;
     for (std::size_t i = 0; i < places.size(); ++i) {

@@ -41,9 +41,8 @@ class RigidRegistration final : public Behaviour {
 
   Target step(const Neighbourhood& seen, const Plan& plan) const override {
     thread_local std::vector<solvers::PointPair> storage;
-    const std::span<const solvers::PointPair> pairs = pose(seen, plan, storage);
-    const bool own_counts = options_.ownship_weight > 0.0;
-    if (pairs.size() <= (own_counts ? 1 : 0)) return Target::hold(Reason::no_neighbour);
+    const std::span<const solvers::PointPair> pairs = pairs_of(seen, plan, storage);
+    if (pairs.empty()) return Target::hold(Reason::no_neighbour);
 
     const solvers::RegistrationSolution fit = registration_->solve({pairs, loss_.get()});
     switch (fit.status) {
@@ -59,22 +58,30 @@ class RigidRegistration final : public Behaviour {
     return Target::hold(Reason::degenerate);
   }
 
+  void pose(const Neighbourhood& seen, const Plan& plan, ProblemViewer& viewer) const override {
+    std::vector<solvers::PointPair> storage;
+    const std::span<const solvers::PointPair> pairs = pairs_of(seen, plan, storage);
+    if (!pairs.empty()) viewer.see(solvers::RegistrationProblem{pairs, loss_.get()});
+  }
+
  private:
   /// The slots of those who were heard, and where they are; before them the own slot, if it
-  /// counts. `storage` only grows.
-  std::span<const solvers::PointPair> pose(const Neighbourhood& seen, const Plan& plan,
-                                           std::vector<solvers::PointPair>& storage) const {
+  /// counts. Nothing if nobody was heard. `storage` only grows.
+  std::span<const solvers::PointPair> pairs_of(const Neighbourhood& seen, const Plan& plan,
+                                               std::vector<solvers::PointPair>& storage) const {
     const std::size_t most = seen.neighbours.size() + 1;
     if (storage.size() < most) storage.resize(most);
     solvers::PointPair* end = storage.data();
-    if (options_.ownship_weight > 0.0) {
+    const bool own_counts = options_.ownship_weight > 0.0;
+    if (own_counts) {
       *end++ = {plan.slot(seen.own_slot), Eigen::Vector2d::Zero(), options_.ownship_weight};
     }
     for (const Neighbour& n : seen.neighbours) {
       if (n.slot == anonymous || !options_.in_range(n.position)) continue;
       *end++ = {plan.slot(n.slot), n.position, options_.weight(n.position, n.age_s)};
     }
-    return {storage.data(), end};
+    const std::span<const solvers::PointPair> pairs{storage.data(), end};
+    return pairs.size() > (own_counts ? 1 : 0) ? pairs : std::span<const solvers::PointPair>{};
   }
 
   RigidRegistrationOptions options_;

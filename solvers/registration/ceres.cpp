@@ -3,7 +3,7 @@
 namespace shoal::solvers {
 namespace {
 
-const EnrolDescent<"ceres_least_squares"> enrolled{
+const EnrolDescent<"ceres.least_squares"> enrolled{
     "ceres", "Ceres: Levenberg-Marquardt on the residuals, for any loss"};
 
 }  // namespace

@@ -1,0 +1,134 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <optional>
+
+#include "shoal/analysis/solver_comparison.hpp"
+
+namespace shoal::analysis {
+namespace {
+
+std::size_t problems(const ContenderFamily& family) {
+  return family.contenders.front().answers.size();
+}
+
+/// Per problem, the least of a quantity among the answers that solve it; infinite if none does.
+template <class Quantity>
+std::vector<double> least(const ContenderFamily& family, Quantity quantity) {
+  std::vector<double> values(problems(family), std::numeric_limits<double>::infinity());
+  for (const Contender& contender : family.contenders) {
+    for (std::size_t k = 0; k < values.size(); ++k) {
+      const Answer& answer = contender.answers[k];
+      if (answer.solved) values[k] = std::min(values[k], static_cast<double>(quantity(answer)));
+    }
+  }
+  return values;
+}
+
+std::string quantile(std::vector<double> values, double share) {
+  if (values.empty()) return "-";
+  const double place = std::round(share * static_cast<double>(values.size() - 1));
+  const auto wanted = values.begin() + static_cast<std::ptrdiff_t>(place);
+  std::ranges::nth_element(values, wanted);
+  return fmt::format("{:.3g}", *wanted);
+}
+
+std::string percent(std::size_t part, std::size_t whole) {
+  return fmt::format("{:.2f}", 100.0 * static_cast<double>(part) / static_cast<double>(whole));
+}
+
+/// What became of one contender's problems.
+struct Tally {
+  std::size_t solved = 0, same = 0, other = 0;
+  double worst_gap = 0.0;
+  std::vector<double> evaluations, microseconds;
+  std::map<std::string, std::size_t> failures;
+
+  std::string failed() const {
+    std::string text;
+    for (const auto& [status, count] : failures) {
+      text += fmt::format("{}{} {}", text.empty() ? "" : ", ", count, status);
+    }
+    return text.empty() ? "-" : text;
+  }
+};
+
+Tally tally_of(const Contender& contender, const Contender& reference,
+               const std::vector<double>& lowest, double same_within_m) {
+  Tally tally;
+  for (std::size_t k = 0; k < contender.answers.size(); ++k) {
+    const Answer& answer = contender.answers[k];
+    if (!answer.solved) {
+      ++tally.failures[answer.refused ? "refused: " + answer.status : answer.status];
+      continue;
+    }
+    ++tally.solved;
+    tally.evaluations.push_back(answer.evaluations);
+    tally.microseconds.push_back(1e6 * answer.seconds);
+    tally.worst_gap = std::max(tally.worst_gap, answer.cost - lowest[k]);
+    const Answer& known = reference.answers[k];
+    if (!known.solved) continue;
+    const bool near = (answer.place - known.place).norm() <= same_within_m;
+    ++(near ? tally.same : tally.other);
+  }
+  return tally;
+}
+
+template <class Effort>
+void add_profile(const ContenderFamily& family, const char* measure, Effort effort,
+                 TextTable& table) {
+  constexpr int octaves = 14, steps_per_octave = 4;
+  const std::vector<double> best = least(family, effort);
+  for (const Contender& contender : family.contenders) {
+    for (int step = 0; step <= octaves * steps_per_octave; ++step) {
+      const double factor = std::exp2(static_cast<double>(step) / steps_per_octave);
+      double within = 0.0;
+      for (std::size_t k = 0; k < best.size(); ++k) {
+        const Answer& answer = contender.answers[k];
+        within += answer.solved && effort(answer) <= factor * best[k] ? 1.0 : 0.0;
+      }
+      table.add({family.name, measure, contender.name, fmt::format("{:.4g}", factor),
+                 fmt::format("{:.5f}", within / static_cast<double>(best.size()))});
+    }
+  }
+}
+
+}  // namespace
+
+TextTable comparison_table(const SolverComparison& comparison, double same_within_m) {
+  TextTable table({"family", "solver", "problems", "solved %", "same minimum %", "other minimum %",
+                   "evaluations", "median us", "p95 us", "worst gap", "not solved"});
+  for (const ContenderFamily* family : comparison.families()) {
+    const std::vector<double> lowest =
+        least(*family, [](const Answer& answer) { return answer.cost; });
+    const std::size_t count = problems(*family);
+    for (const Contender& contender : family->contenders) {
+      const Tally tally =
+          tally_of(contender, family->contenders[family->reference], lowest, same_within_m);
+      table.add({family->name, contender.name, std::to_string(count), percent(tally.solved, count),
+                 percent(tally.same, count), percent(tally.other, count),
+                 quantile(tally.evaluations, 0.5), quantile(tally.microseconds, 0.5),
+                 quantile(tally.microseconds, 0.95),
+                 tally.solved > 0 ? fmt::format("{:.2g}", tally.worst_gap) : "-", tally.failed()});
+    }
+  }
+  return table;
+}
+
+TextTable performance_profiles(const SolverComparison& comparison) {
+  TextTable table({"family", "measure", "solver", "factor", "share"});
+  for (const ContenderFamily* family : comparison.families()) {
+    add_profile(
+        *family, "seconds", [](const Answer& answer) { return answer.seconds; }, table);
+    const auto evaluations = [](const Answer& answer) { return answer.evaluations; };
+    if (std::ranges::any_of(least(*family, evaluations), [](double n) { return n > 0.0; })) {
+      add_profile(*family, "evaluations", evaluations, table);
+    }
+  }
+  return table;
+}
+
+}  // namespace shoal::analysis

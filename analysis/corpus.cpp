@@ -1,0 +1,159 @@
+#include "shoal/analysis/corpus.hpp"
+
+#include <cmath>
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "shoal/core/whole_file.hpp"
+
+namespace shoal::analysis {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json to_json(const Setting& setting) {
+  if (const auto* list = std::get_if<Setting::List>(&setting.value)) {
+    Json array = Json::array();
+    for (const Setting& entry : *list) array.push_back(to_json(entry));
+    return array;
+  }
+  if (setting.is_table()) {
+    Json object = Json::object();
+    for (const auto& [name, entry] : setting.table()) object[name] = to_json(entry);
+    return object;
+  }
+  if (const auto* text = std::get_if<std::string>(&setting.value)) return *text;
+  if (const auto* number = std::get_if<double>(&setting.value)) return *number;
+  if (const auto* integer = std::get_if<std::int64_t>(&setting.value)) return *integer;
+  return std::get<bool>(setting.value);
+}
+
+Setting to_setting(const Json& json, const Origin& origin) {
+  Setting setting;
+  setting.origin = origin;
+  if (json.is_boolean()) {
+    setting.value = json.get<bool>();
+  } else if (json.is_number_integer()) {
+    setting.value = json.get<std::int64_t>();
+  } else if (json.is_number()) {
+    setting.value = json.get<double>();
+  } else if (json.is_string()) {
+    setting.value = json.get<std::string>();
+  } else if (json.is_array()) {
+    Setting::List list;
+    for (const Json& entry : json) list.push_back(to_setting(entry, origin));
+    setting.value = std::move(list);
+  } else if (json.is_object()) {
+    for (const auto& [name, entry] : json.items()) {
+      setting.table().emplace_back(name, to_setting(entry, origin));
+    }
+  } else {
+    throw InputError(origin, "an option is null");
+  }
+  return setting;
+}
+
+Experiment to_experiment(const Json& json, const Origin& origin) {
+  std::vector<std::string> names;
+  std::vector<Eigen::Vector2d> slots;
+  for (const Json& slot : json.at("plan")) {
+    names.push_back(slot.at(0).get<std::string>());
+    slots.emplace_back(slot.at(1).get<double>(), slot.at(2).get<double>());
+  }
+  return {json.at("scenario").get<std::string>(), to_setting(json.at("behaviour"), origin),
+          formations::Plan(std::move(names), std::move(slots), origin)};
+}
+
+Situation to_situation(const Json& json, const Corpus& corpus, const Origin& origin) {
+  Situation situation;
+  situation.experiment = json.at("experiment").get<std::size_t>();
+  if (situation.experiment >= corpus.experiments.size()) {
+    throw InputError(origin, "there is no experiment " + std::to_string(situation.experiment) +
+                                 " above this line");
+  }
+  const int slots = corpus.experiments[situation.experiment].plan.size();
+  situation.own_slot = json.at("slot").get<int>();
+  if (situation.own_slot < 0 || situation.own_slot >= slots) {
+    throw InputError(origin, "the plan has no slot " + std::to_string(situation.own_slot));
+  }
+  situation.own_position = {json.at("at").at(0).get<double>(), json.at("at").at(1).get<double>()};
+  for (const Json& heard : json.at("heard")) {
+    formations::Neighbour neighbour;
+    neighbour.position = {heard.at(0).get<double>(), heard.at(1).get<double>()};
+    neighbour.age_s = heard.at(2).get<double>();
+    neighbour.slot = heard.at(3).get<int>();
+    if (neighbour.slot < formations::anonymous || neighbour.slot >= slots) {
+      throw InputError(origin, "the plan has no slot " + std::to_string(neighbour.slot));
+    }
+    situation.neighbours.push_back(neighbour);
+  }
+  return situation;
+}
+
+}  // namespace
+
+std::unique_ptr<formations::Behaviour> Experiment::make_behaviour() const {
+  Choice<formations::Behaviour> choice{""};
+  choice.setting().read(Registry<formations::Behaviour>::instance(), behaviour, "behaviour");
+  return choice.make();
+}
+
+void Corpus::append(Corpus other) {
+  const std::size_t before = experiments.size();
+  for (Experiment& experiment : other.experiments) experiments.push_back(std::move(experiment));
+  for (Situation& situation : other.situations) {
+    situation.experiment += before;
+    situations.push_back(std::move(situation));
+  }
+}
+
+void write_corpus(const Corpus& corpus, const std::filesystem::path& file) {
+  std::string text;
+  for (const Experiment& experiment : corpus.experiments) {
+    Json line{{"scenario", experiment.scenario}, {"behaviour", to_json(experiment.behaviour)}};
+    Json& plan = line["plan"] = Json::array();
+    for (int i = 0; i < experiment.plan.size(); ++i) {
+      const Eigen::Vector2d& slot = experiment.plan.slot(i);
+      plan.push_back(Json::array({experiment.plan.name(i), slot.x(), slot.y()}));
+    }
+    text += line.dump() + "\n";
+  }
+  for (const Situation& situation : corpus.situations) {
+    Json line{{"experiment", situation.experiment},
+              {"slot", situation.own_slot},
+              {"at", {situation.own_position.x(), situation.own_position.y()}}};
+    Json& heard = line["heard"] = Json::array();
+    for (const formations::Neighbour& n : situation.neighbours) {
+      heard.push_back(Json::array({n.position.x(), n.position.y(), n.age_s, n.slot}));
+    }
+    text += line.dump() + "\n";
+  }
+  write_whole_file(file, text);
+}
+
+Corpus read_corpus(const std::filesystem::path& file) {
+  std::ifstream stream(file);
+  if (!stream) throw InputError("cannot open " + file.string());
+  Corpus corpus;
+  std::string text;
+  Origin origin{file.string(), 0};
+  while (std::getline(stream, text)) {
+    ++origin.line;
+    try {
+      const Json line = Json::parse(text);
+      if (line.contains("plan")) {
+        corpus.experiments.push_back(to_experiment(line, origin));
+      } else {
+        corpus.situations.push_back(to_situation(line, corpus, origin));
+      }
+    } catch (const Json::exception&) {
+      throw InputError(origin,
+                       "this is no line of a corpus; shoal run --record-problems writes one");
+    }
+  }
+  if (stream.bad()) throw SystemError("cannot read " + file.string());
+  if (corpus.situations.empty()) throw InputError(file.string() + ": holds no problem");
+  return corpus;
+}
+
+}  // namespace shoal::analysis

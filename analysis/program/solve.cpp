@@ -1,0 +1,34 @@
+#include <fmt/core.h>
+
+#include <filesystem>
+
+#include "commands.hpp"
+#include "shoal/analysis/solver_comparison.hpp"
+#include "shoal/analysis/trial.hpp"
+#include "shoal/core/whole_file.hpp"
+#include "shoal/scenarios/toml_file.hpp"
+
+namespace shoal::program {
+
+void solve(const SolveArguments& arguments) {
+  const analysis::TextTable::Format format = analysis::table_format(arguments.format);
+  analysis::ComparisonSettings settings{
+      .solvers = arguments.solvers, .reference = arguments.reference, .options = {}};
+  for (const std::string& set : arguments.sets) scenarios::apply_set(settings.options, set);
+  analysis::SolverComparison comparison(settings);
+  if (!arguments.profiles.empty()) {
+    analysis::require_writable(std::filesystem::absolute(arguments.profiles).parent_path());
+  }
+  comparison.run(analysis::read_corpus(arguments.corpus));
+  if (comparison.families().empty()) {
+    throw InputError("no problem of " + arguments.corpus +
+                     " belongs to the family of a solver that was named");
+  }
+  fmt::print("{}", analysis::comparison_table(comparison, arguments.same_within_m).print(format));
+  if (!arguments.profiles.empty()) {
+    using enum analysis::TextTable::Format;
+    write_whole_file(arguments.profiles, analysis::performance_profiles(comparison).print(csv));
+  }
+}
+
+}  // namespace shoal::program

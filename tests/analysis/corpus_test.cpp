@@ -1,0 +1,197 @@
+#include "shoal/analysis/corpus.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+
+#include "shoal/analysis/problem_recorder.hpp"
+#include "shoal/analysis/solver_comparison.hpp"
+#include "shoal/analysis/trial.hpp"
+#include "shoal/scenarios/toml_file.hpp"
+
+namespace shoal::analysis {
+namespace {
+
+namespace fs = std::filesystem;
+
+class Corpora : public testing::Test {
+ protected:
+  void SetUp() override {
+    std::string pattern = (fs::temp_directory_path() / "shoal_corpus_XXXXXX").string();
+    ASSERT_NE(mkdtemp(pattern.data()), nullptr);
+    folder = pattern;
+  }
+  void TearDown() override { fs::remove_all(folder); }
+
+  fs::path written(const std::string& text) const {
+    std::ofstream(folder / "bad.jsonl") << text;
+    return folder / "bad.jsonl";
+  }
+
+  fs::path folder;
+};
+
+scenarios::Scenario scenario(const std::string& behaviour) {
+  Setting root = scenarios::read_toml(scenarios::find_scenario("construction_square"));
+  scenarios::apply_set(root, "behaviour.kind=" + behaviour);
+  scenarios::apply_set(root, "trial.duration_s=300");
+  scenarios::apply_set(root, "behaviour.rigid_registration.ownship_weight=0.1");
+  return scenarios::read_scenario(root);
+}
+
+Corpus recorded(const scenarios::Scenario& wanted, int threads = 1) {
+  ProblemRecorder recorder;
+  const Trial trial =
+      run_trial(wanted, {.threads = threads, .record = false, .behaviour_hook = recorder.hook()});
+  return recorder.corpus(wanted, "construction_square", trial.world->plan());
+}
+
+void expect_same(const Corpus& a, const Corpus& b) {
+  ASSERT_EQ(a.experiments.size(), b.experiments.size());
+  ASSERT_EQ(a.situations.size(), b.situations.size());
+  for (std::size_t k = 0; k < a.situations.size(); ++k) {
+    const Situation &left = a.situations[k], &right = b.situations[k];
+    ASSERT_EQ(left.own_slot, right.own_slot);
+    ASSERT_EQ(left.own_position, right.own_position);
+    ASSERT_EQ(left.neighbours.size(), right.neighbours.size());
+    for (std::size_t i = 0; i < left.neighbours.size(); ++i) {
+      ASSERT_EQ(left.neighbours[i].position, right.neighbours[i].position);
+      ASSERT_EQ(left.neighbours[i].age_s, right.neighbours[i].age_s);
+      ASSERT_EQ(left.neighbours[i].slot, right.neighbours[i].slot);
+    }
+  }
+}
+
+TEST_F(Corpora, PoseTheSameProblemsAgainBitForBitAfterAFile) {
+  for (const std::string& behaviour : Registry<formations::Behaviour>::instance().names()) {
+    const Corpus corpus = recorded(scenario(behaviour));
+    ASSERT_GT(corpus.situations.size(), 100u) << behaviour;
+    write_corpus(corpus, folder / "c.jsonl");
+    const Corpus again = read_corpus(folder / "c.jsonl");
+    expect_same(corpus, again);
+
+    const auto before = scenario(behaviour).behaviour.make();
+    const auto after = again.experiments[0].make_behaviour();
+    for (const Situation& s : again.situations) {
+      const formations::Neighbourhood seen{s.neighbours, s.own_slot, s.own_position};
+      const formations::Target a = before->step(seen, corpus.experiments[0].plan);
+      const formations::Target b = after->step(seen, again.experiments[0].plan);
+      ASSERT_EQ(a.position, b.position) << behaviour;
+      ASSERT_EQ(a.cost, b.cost) << behaviour;
+    }
+  }
+}
+
+TEST_F(Corpora, DoNotDependOnThreadsAndLeaveTheTrialAlone) {
+  const scenarios::Scenario wanted = scenario("rigid_registration");
+  expect_same(recorded(wanted, 1), recorded(wanted, 3));
+  ProblemRecorder recorder;
+  const Trial with = run_trial(wanted, {.record = false, .behaviour_hook = recorder.hook()});
+  const Trial without = run_trial(wanted, {.record = false});
+  EXPECT_EQ(with.results.values, without.results.values);
+}
+
+TEST_F(Corpora, KeepApartWhatWasAppended) {
+  Corpus corpus = recorded(scenario("rigid_registration"));
+  const std::size_t first = corpus.situations.size();
+  corpus.append(recorded(scenario("attraction_repulsion")));
+  ASSERT_EQ(corpus.experiments.size(), 2u);
+  EXPECT_EQ(corpus.situations[first - 1].experiment, 0u);
+  EXPECT_EQ(corpus.situations[first].experiment, 1u);
+}
+
+TEST_F(Corpora, AreRefusedWithTheLineThatIsWrong) {
+  const auto complaint = [](const fs::path& file) -> std::string {
+    try {
+      read_corpus(file);
+    } catch (const InputError& error) {
+      return error.what();
+    }
+    return "";
+  };
+  const std::string good =
+      R"({"scenario":"s","behaviour":{"kind":"rigid_registration"},"plan":[["a",0,0],["b",9,0]]})"
+      "\n";
+  const std::string name = (folder / "bad.jsonl").string();
+  const std::string no_line = "this is no line of a corpus; shoal run --record-problems writes one";
+  EXPECT_EQ(complaint(written("")), name + ": holds no problem");
+  EXPECT_EQ(complaint(written(good)), name + ": holds no problem");
+  EXPECT_EQ(complaint(written(good + "{\"experiment\":0}\n")), name + ":2: " + no_line);
+  EXPECT_EQ(complaint(written(good + "nonsense\n")), name + ":2: " + no_line);
+  EXPECT_EQ(complaint(written("[1, 2]\n")), name + ":1: " + no_line);
+  EXPECT_EQ(complaint(written(good + R"({"experiment":1,"slot":0,"at":[0,0],"heard":[]})")),
+            name + ":2: there is no experiment 1 above this line");
+  EXPECT_EQ(complaint(written(good + R"({"experiment":0,"slot":2,"at":[0,0],"heard":[]})")),
+            name + ":2: the plan has no slot 2");
+  EXPECT_EQ(
+      complaint(written(good + R"({"experiment":0,"slot":0,"at":[0,0],"heard":[[1,2,3,-2]]})")),
+      name + ":2: the plan has no slot -2");
+  EXPECT_EQ(complaint(folder / "nowhere"), "cannot open " + (folder / "nowhere").string());
+}
+
+// The comparison ----------------------------------------------------------------------------------
+
+TEST_F(Corpora, AreSolvedByTheSolversOfTheirFamilies) {
+  Corpus corpus = recorded(scenario("attraction_repulsion"));
+  corpus.append(recorded(scenario("rigid_registration")));
+  corpus.append(recorded(scenario("assignment_registration")));
+  corpus.situations.erase(
+      std::remove_if(corpus.situations.begin(), corpus.situations.end(),
+                     [k = 0](const Situation&) mutable { return k++ % 20 != 0; }),
+      corpus.situations.end());
+  SolverComparison comparison({.solvers = {"newton", "nlopt.slsqp", "procrustes", "sampled"},
+                               .reference = "",
+                               .options = {}});
+  comparison.run(corpus);
+  const auto families = comparison.families();
+  ASSERT_EQ(families.size(), 3u);
+  for (const ContenderFamily* family : families) {
+    for (const Contender& contender : family->contenders) {
+      EXPECT_EQ(contender.answers.size(), family->contenders.front().answers.size());
+      for (const Answer& answer : contender.answers) EXPECT_TRUE(answer.solved) << answer.status;
+    }
+  }
+  const std::string table = comparison_table(comparison, 0.01).print(TextTable::Format::csv);
+  EXPECT_EQ(std::ranges::count(table, '\n'), 6) << table;  // newton is in two families
+}
+
+TEST_F(Corpora, GiveProfilesThatRiseToTheShareSolved) {
+  SolverComparison comparison(
+      {.solvers = {"newton", "nlopt.bobyqa", "grid"}, .reference = "", .options = {}});
+  comparison.run(recorded(scenario("attraction_repulsion")));
+  const std::string profiles = performance_profiles(comparison).print(TextTable::Format::csv);
+  EXPECT_NE(profiles.find("solver,evaluations,newton,1,1.00000"), std::string::npos);
+  EXPECT_NE(profiles.find("solver,evaluations,nlopt.bobyqa,1,0.00000"), std::string::npos);
+  EXPECT_NE(profiles.find("solver,seconds,nlopt.bobyqa,1.638e+04,1.00000"), std::string::npos);
+  EXPECT_NE(profiles.find("solver,seconds,grid,1.638e+04,0.00000"), std::string::npos);
+}
+
+TEST_F(Corpora, AreNotComparedByUnknownSolversOrReferences) {
+  const auto complaint = [](const ComparisonSettings& settings) -> std::string {
+    try {
+      const SolverComparison comparison(settings);
+    } catch (const InputError& error) {
+      return error.what();
+    }
+    return "";
+  };
+  EXPECT_EQ(complaint({.solvers = {"newton", "nlopt.slsq"}, .reference = "", .options = {}}),
+            "there is no solver \"nlopt.slsq\"; did you mean \"nlopt.slsqp\"?");
+  EXPECT_EQ(complaint({.solvers = {"newton"}, .reference = "neton", .options = {}}),
+            "the reference \"neton\" is not among the solvers; did you mean \"newton\"?");
+  Setting options;
+  scenarios::apply_set(options, "solver.newton.x_tolerance=1e-6");
+  EXPECT_NE(complaint({.solvers = {"newton"}, .reference = "", .options = options})
+                .find("did you mean \"x_tolerance_m\"?"),
+            std::string::npos);
+  Setting wrong_family;
+  scenarios::apply_set(wrong_family, "newton.x_tolerance_m=1e-6");
+  EXPECT_NE(complaint({.solvers = {"newton"}, .reference = "", .options = wrong_family})
+                .find("there is no family of solvers \"newton\""),
+            std::string::npos);
+}
+
+}  // namespace
+}  // namespace shoal::analysis
