@@ -66,4 +66,8 @@ class Solver {
 /// The answer of a solver that refuses the problem.
 Solution refused(const Problem& problem);
 
+/// Keeps Ceres from writing warnings to stderr, by way of glog and for the whole process: for
+/// programs that own theirs. What it warns of is in the status of the solution.
+void silence_backends();
+
 }  // namespace shoal::solvers

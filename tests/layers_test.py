@@ -9,7 +9,7 @@ import sys
 
 LAYERS = ["core", "solvers", "formations", "scenarios", "analysis"]
 HEAVY = re.compile(
-    r"CGAL/|boost/|nlopt|coin/|Ip[A-Z]|ceres/(?!jet\.h)|netcdf|sqlite3|ginac/|muParser|toml\+\+|tbb/|CLI/|"
+    r"CGAL/|boost/|nlopt|coin/|Ip[A-Z]|ceres/|glog/|netcdf|sqlite3|ginac/|muParser|toml\+\+|tbb/|CLI/|"
     r"fmt/|nlohmann/(?!json_fwd)|Random123/|dlib/"
 )
 INCLUDE = re.compile(r'^\s*#\s*include\s*[<"]([^>"]+)[>"]')

@@ -7,6 +7,7 @@
 
 #include "commands.hpp"
 #include "shoal/core/error.hpp"
+#include "shoal/solvers/solver.hpp"
 
 namespace {
 
@@ -49,6 +50,7 @@ int main(int argc, char** argv) {
   // A limit on the size of files, or a reader that has gone, is an error to report, not a signal.
   std::signal(SIGXFSZ, SIG_IGN);
   std::signal(SIGPIPE, SIG_IGN);
+  shoal::solvers::silence_backends();
 
   CLI::App app{
       "shoal: optimisation research toolkit for formation planning of underwater vehicles"};

@@ -215,17 +215,21 @@ Solution Attempt::finish_converged(const char* says) {
   return answer(Status::converged, 0, says);
 }
 
-Status Attempt::judge() const {
-  if (std::isinf(best_cost_)) return Status::diverged;
-  if (best_violation_ > 0.0) return Status::infeasible;
-  if (!open_) return Status::converged;
+bool Attempt::at_minimum() const {
   double steepest = std::sqrt(steepest_squared_);
   if (steepest == 0.0) {  // of a method that uses no derivatives: the slope at the start will do
     Vector slope(problem_.dimension());
     problem_.evaluate(problem_.start.data(), slope.data());
     if (slope.allFinite()) steepest = slope.norm();
   }
-  if (is_local_minimum(problem_, best_, limits_.x_tolerance_m, steepest)) return Status::converged;
+  return is_local_minimum(problem_, best_, limits_.x_tolerance_m, steepest);
+}
+
+Status Attempt::judge() const {
+  if (std::isinf(best_cost_)) return Status::diverged;
+  if (best_violation_ > 0.0) return Status::infeasible;
+  if (!open_) return Status::converged;
+  if (at_minimum()) return Status::converged;
   if (met_not_finite_) return Status::diverged;
   if (evaluations_ >= limits_.max_evaluations) return Status::budget;
   return Status::stalled_at_roundoff;

@@ -60,6 +60,9 @@ class Attempt {
   /// The best point so far; NaN before the first fine evaluation.
   Problem::Vector best() const { return free_part(best_); }
 
+  /// Whether the best point is a minimum by our own check: for backends that may be asked to go on.
+  bool at_minimum() const;
+
   /// The highest cost so far: what a backend may be told that needs a number where there is none.
   /// -infinity before the first fine evaluation.
   double worst_cost() const { return worst_cost_; }

@@ -1,6 +1,7 @@
 #include <ceres/first_order_function.h>
 #include <ceres/gradient_problem.h>
 #include <ceres/gradient_problem_solver.h>
+#include <glog/logging.h>
 
 #include "shoal/solvers/smooth/attempt.hpp"
 
@@ -32,8 +33,10 @@ class ShortStep final : public ceres::IterationCallback {
   ceres::CallbackReturnType operator()(const ceres::IterationSummary& iteration) override {
     if (attempt_.must_stop()) return ceres::SOLVER_ABORT;
     const bool moved = iteration.iteration > 0;
-    return moved && iteration.step_norm <= tolerance_ ? ceres::SOLVER_TERMINATE_SUCCESSFULLY
-                                                      : ceres::SOLVER_CONTINUE;
+    // A step may be short because the line search or the trust region is: then it goes on.
+    return moved && iteration.step_norm <= tolerance_ && attempt_.at_minimum()
+               ? ceres::SOLVER_TERMINATE_SUCCESSFULLY
+               : ceres::SOLVER_CONTINUE;
   }
 
  private:
@@ -87,4 +90,9 @@ const Enrol<Solver, CeresOptions> enrolled[] = {
     {"ceres.bfgs", "Ceres: BFGS", made<ceres::BFGS>}};
 
 }  // namespace
+
+void silence_backends() {
+  FLAGS_minloglevel = google::GLOG_FATAL;
+}
+
 }  // namespace shoal::solvers

@@ -71,8 +71,10 @@ class ShortStep final : public ceres::IterationCallback {
   ceres::CallbackReturnType operator()(const ceres::IterationSummary& iteration) override {
     if (attempt_.must_stop()) return ceres::SOLVER_ABORT;
     const bool moved = iteration.iteration > 0 && iteration.step_is_successful;
-    return moved && iteration.step_norm <= tolerance_ ? ceres::SOLVER_TERMINATE_SUCCESSFULLY
-                                                      : ceres::SOLVER_CONTINUE;
+    // A step may be short because the line search or the trust region is: then it goes on.
+    return moved && iteration.step_norm <= tolerance_ && attempt_.at_minimum()
+               ? ceres::SOLVER_TERMINATE_SUCCESSFULLY
+               : ceres::SOLVER_CONTINUE;
   }
 
  private:
