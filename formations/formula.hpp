@@ -12,7 +12,7 @@ namespace shoal::formations {
 /// A function of the distance r and the separation s (m) that was written as text.
 ///
 /// Numbers, r, s, pi, + - * / ^, brackets, and sqrt, exp, log (natural), sin, cos, tan, asin, acos,
-/// atan, sinh, cosh, tanh, abs, min, max. Evaluation is thread-safe and allocates nothing.
+/// atan, sinh, cosh, tanh, abs, min, max, pow. Evaluation is thread-safe and allocates nothing.
 class Formula {
  public:
   /// Throws InputError with one sentence that says what is wrong, and where.

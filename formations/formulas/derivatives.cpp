@@ -166,37 +166,74 @@ class Translator {
     return {negative, negative ? -e : e};
   }
 
+  /// What an expression is, but for its sign; and its sign.
+  struct Key {
+    std::uint64_t key = 0;
+    bool negative = false;
+  };
+
   // GiNaC orders operands by addresses, which change from run to run, and pulls signs out of sums
-  // accordingly. Ours go by these keys, which tell apart what differs in more than its sign.
-  std::uint64_t key(const ex& e) {
+  // accordingly: x - y may come as -(y - x). Ours go by keys that do not depend on either.
+  Key key(const ex& e) {
     const auto known = keys_.find(e);
     if (known != keys_.end()) return known->second;
-    std::uint64_t k = 0;
-    if (is_a<GiNaC::numeric>(e)) {
-      k = mixed(1, std::bit_cast<std::uint64_t>(std::abs(number(e))));
-    } else if (is_a<GiNaC::symbol>(e)) {
-      for (const char c : GiNaC::ex_to<GiNaC::symbol>(e).get_name()) {
-        k = mixed(k, static_cast<std::uint64_t>(c));
-      }
-    } else {
-      std::vector<std::uint64_t> parts;
-      for (const ex& part : e) parts.push_back(key(part));
-      const bool ordered = is_a<GiNaC::power>(e);
-      if (!ordered) std::ranges::sort(parts);
-      k = is_a<GiNaC::add>(e) ? 2 : is_a<GiNaC::mul>(e) ? 3 : ordered ? 4 : 5;
-      if (is_a<GiNaC::function>(e)) {
-        for (const char c : GiNaC::ex_to<GiNaC::function>(e).get_name()) {
-          k = mixed(k, static_cast<std::uint64_t>(c));
-        }
-      }
-      // An exponent's sign does matter.
-      if (ordered && split(e.op(1)).first) k = mixed(k, 6);
-      for (const std::uint64_t part : parts) k = mixed(k, part);
-    }
-    keys_.emplace(e, k);
-    return k;
+    const Key made = new_key(e);
+    keys_.emplace(e, made);
+    return made;
   }
 
+  Key new_key(const ex& e) {
+    if (is_a<GiNaC::numeric>(e)) {
+      const double x = number(e);
+      return {mixed(1, std::bit_cast<std::uint64_t>(std::abs(x))), x < 0.0};
+    }
+    if (is_a<GiNaC::symbol>(e)) {
+      return {mixed(2, GiNaC::ex_to<GiNaC::symbol>(e).get_name()), false};
+    }
+    if (is_a<GiNaC::power>(e)) {
+      const Key base = key(e.op(0));
+      const Key exponent = key(e.op(1));
+      const bool whole = e.op(1).info(GiNaC::info_flags::integer);
+      const bool odd = whole && e.op(1).info(GiNaC::info_flags::odd);
+      const std::uint64_t signs =
+          (exponent.negative ? 1u : 0u) + (base.negative && !whole ? 2u : 0u);
+      return {mixed(mixed(mixed(3, base.key), exponent.key), signs), base.negative && odd};
+    }
+    std::vector<Key> parts;
+    for (const ex& part : e) parts.push_back(key(part));
+    std::ranges::sort(parts, {}, &Key::key);
+    if (is_a<GiNaC::add>(e)) {
+      Key sum{4, parts.front().negative};
+      for (const Key& part : parts) {
+        sum.key = mixed(mixed(sum.key, part.key), part.negative != sum.negative ? 1 : 0);
+      }
+      return sum;
+    }
+    if (is_a<GiNaC::mul>(e)) {
+      const std::uint64_t one = key(1).key;  // all that is left of a factor of -1: -x is as x
+      const auto factors = std::ranges::count_if(parts, [&](const Key& p) { return p.key != one; });
+      Key product{factors > 1 ? 5u : 0u, false};
+      for (const Key& part : parts) {
+        product.negative ^= part.negative;
+        if (part.key == one) continue;
+        product.key = factors > 1 ? mixed(product.key, part.key) : part.key;
+      }
+      return product;
+    }
+    Key call{6, false};
+    if (is_a<GiNaC::function>(e)) {
+      call.key = mixed(call.key, GiNaC::ex_to<GiNaC::function>(e).get_name());
+    }
+    for (const Key& part : parts) {
+      call.key = mixed(mixed(call.key, part.key), part.negative ? 1 : 0);
+    }
+    return call;
+  }
+
+  static std::uint64_t mixed(std::uint64_t a, const std::string& text) {
+    for (const char c : text) a = mixed(a, static_cast<std::uint64_t>(c));
+    return a;
+  }
   static std::uint64_t mixed(std::uint64_t a, std::uint64_t b) {
     std::uint64_t x = (a ^ (b + 0x9e3779b97f4a7c15u + (a << 6) + (a >> 2))) * 0xbf58476d1ce4e5b9u;
     return x ^ (x >> 31);
@@ -204,7 +241,7 @@ class Translator {
 
   std::vector<ex> in_order(const ex& e) {
     std::vector<std::pair<std::uint64_t, ex>> parts;
-    for (const ex& part : e) parts.emplace_back(key(part), part);
+    for (const ex& part : e) parts.emplace_back(key(part).key, part);
     std::ranges::stable_sort(parts, {}, &std::pair<std::uint64_t, ex>::first);
     std::vector<ex> sorted;
     for (const auto& [k, part] : parts) sorted.push_back(part);
@@ -264,7 +301,7 @@ class Translator {
   // Positive, so that GiNaC keeps to the reals: sqrt(r^2) is r.
   const GiNaC::possymbol r_{"r"}, s_{"s"};
   std::vector<Side> sides_;
-  std::map<ex, std::uint64_t, GiNaC::ex_is_less> keys_;
+  std::map<ex, Key, GiNaC::ex_is_less> keys_;
 };
 
 }  // namespace

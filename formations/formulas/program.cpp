@@ -107,7 +107,10 @@ Program Program::at(double s) const {
       known[first_step() + i] = computed<false>(step.code, *known[step.a], *known[step.b], 0.0);
     }
   }
-  const auto is_kept = [&](std::size_t i) { return !known[first_step() + i]; };
+  std::vector<std::size_t> kept;
+  for (std::size_t i = 0; i < steps_.size(); ++i) {
+    if (!known[first_step() + i]) kept.push_back(i);
+  }
 
   Program bound;
   std::vector<double> constants;
@@ -116,8 +119,7 @@ Program Program::at(double s) const {
     if (!known[here] || !moved.try_emplace(here, 2 + constants.size()).second) return;
     constants.push_back(*known[here]);
   };
-  for (std::size_t i = 0; i < steps_.size(); ++i) {
-    if (!is_kept(i)) continue;
+  for (const std::size_t i : kept) {
     note(steps_[i].a);
     note(steps_[i].b);
   }
@@ -126,8 +128,7 @@ Program Program::at(double s) const {
   std::ranges::copy(constants, bound.constants_.begin());
 
   const auto there = [&](std::size_t here) { return static_cast<std::uint16_t>(moved.at(here)); };
-  for (std::size_t i = 0; i < steps_.size(); ++i) {
-    if (!is_kept(i)) continue;
+  for (const std::size_t i : kept) {
     moved[first_step() + i] = bound.first_step() + bound.steps_.size();
     bound.steps_.push_back({steps_[i].code, there(steps_[i].a), there(steps_[i].b), 0});
     if (i < value_steps_) bound.value_steps_ = bound.steps_.size();
@@ -147,8 +148,7 @@ void Program::join_steps() {
   for (const std::size_t result : results_) uses[result] += 2;
 
   std::vector<bool> is_gone(steps_.size());
-  for (std::size_t i = 0; i < steps_.size(); ++i) {
-    Step& step = steps_[i];
+  for (Step& step : steps_) {
     if (!is_arithmetic(step.code)) continue;
     for (const bool swapped : {false, true}) {
       const std::size_t operand = swapped ? step.b : step.a;
@@ -197,7 +197,8 @@ ProgramBuilder::Operand ProgramBuilder::step(Operation operation, Operand a, Ope
   const std::tuple key(operation, commutes ? std::min(a, b) : a, commutes ? std::max(a, b) : b);
   const auto [place, is_new] = known_.try_emplace(key, 2 + static_cast<Operand>(steps_.size()));
   if (is_new) steps_.push_back(key);
-  if (2 + std::max(constants_.size(), Program::least_constants) + steps_.size() >
+  // Room is left for r, s, s as a constant (at()) and derivatives that are constants.
+  if (5 + std::max(constants_.size(), Program::least_constants) + steps_.size() >
       Program::max_registers) {
     throw InputError("it is too long: it and its derivatives take more than " +
                      std::to_string(Program::max_registers) + " steps");
@@ -228,10 +229,8 @@ std::vector<ProgramBuilder::Operand> ProgramBuilder::append(const Tree& tree) {
                                             : operands[static_cast<std::size_t>(node)];
   };
   for (const Tree::Node& n : tree.nodes) {
-    if (n.operation == Operation::number) {
-      operands.push_back(distance);  // becomes a constant where it is used
-    } else if (n.operation == Operation::distance) {
-      operands.push_back(distance);
+    if (n.operation == Operation::number || n.operation == Operation::distance) {
+      operands.push_back(distance);  // a number becomes a constant where it is used
     } else if (n.operation == Operation::separation) {
       operands.push_back(separation);
     } else if (n.operation == Operation::power &&

@@ -31,7 +31,7 @@ struct Expression {
   static void declare(Options<Expression>& o) {
     o.text("formula", &Expression::formula,
            "cost of the distance r and the separation s, in metres: + - * / ^ and sqrt exp log sin "
-           "cos tan asin acos atan sinh cosh tanh abs min max pi");
+           "cos tan asin acos atan sinh cosh tanh abs min max pow pi");
     o.number("from_m", &Expression::from_m, "m", above(0),
              "smallest distance at which the formula and two derivatives must be finite");
     o.number("to_m", &Expression::to_m, "m", above(0), "largest such distance");
