@@ -114,31 +114,48 @@ class PairwiseReferencing final : public Behaviour {
   }
 
   /// The sum of weight * loss(|x - place|^2).
-  ///
-  /// Robust costs have several minima and Tukey's is flat far away, so they start from the cheapest
-  /// of the mean and up to 64 places (of more, 64 that are evenly spread over the pairs).
   solvers::Problem pose(std::vector<Vector2d> places, std::vector<double> weights) const {
-    Vector2d start = Vector2d::Zero();
-    double sum = 0.0;
-    for (std::size_t i = 0; i < places.size(); ++i) {
-      start += weights[i] * places[i];
-      sum += weights[i];
-    }
-    start /= sum;
-    const std::vector<Vector2d> candidates = loss_->is_square() ? std::vector<Vector2d>{} : places;
-    solvers::Problem problem = solvers::least_squares_problem(
+    const Vector2d start = start_among(places, weights);
+    return solvers::least_squares_problem(
         start, {solvers::differentiated_blocks<2>(DistanceFromPlaces{std::move(places)}), loss_,
                 std::move(weights)});
-    double least = problem.evaluate(problem.start.data());
-    const std::size_t count = std::min<std::size_t>(candidates.size(), 64);
-    for (std::size_t k = 0; k < count; ++k) {
-      const Vector2d& place = candidates[k * candidates.size() / count];
-      const double cost = problem.evaluate(place.data());
-      if (!(cost < least)) continue;
-      least = cost;
-      problem.start = place;
+  }
+
+  /// The mean, or, for robust costs, which have several minima and may be flat far away, the
+  /// cheapest of the mean and up to 256 places (of more, 256 that are evenly spread over them). Of
+  /// places that cost the same, as those do that no other agrees with, the nearest to the mean.
+  Vector2d start_among(const std::vector<Vector2d>& places,
+                       const std::vector<double>& weights) const {
+    Vector2d mean = Vector2d::Zero();
+    double sum = 0.0;
+    for (std::size_t i = 0; i < places.size(); ++i) {
+      mean += weights[i] * places[i];
+      sum += weights[i];
     }
-    return problem;
+    mean /= sum;
+    if (loss_->is_square()) return mean;
+
+    const auto cost = [&](const Vector2d& x) {
+      double total = 0.0;
+      for (std::size_t i = 0; i < places.size(); ++i) {
+        total += weights[i] * loss_->at((x - places[i]).squaredNorm()).value;
+      }
+      return total;
+    };
+    constexpr double rounding = 1e-12;
+    Vector2d start = mean;
+    double least = cost(mean);
+    const std::size_t count = std::min<std::size_t>(places.size(), 256);
+    for (std::size_t k = 0; k < count; ++k) {
+      const Vector2d& place = places[k * places.size() / count];
+      const double there = cost(place);
+      const bool tied = std::abs(there - least) <= rounding * least;
+      const bool nearer = (place - mean).squaredNorm() < (start - mean).squaredNorm();
+      if (!(tied ? nearer : there < least)) continue;
+      least = there;
+      start = place;
+    }
+    return start;
   }
 
   /// Calls visit(place, weight) for every pair of identified neighbours in range.

@@ -212,6 +212,7 @@ Descended lowest(const Solver& solver, const Centred& points, const Transform2& 
 }
 
 RegistrationStatus status_of(const Solution& solution, bool turned) {
+  if (solution.status == Status::bad_input) return RegistrationStatus::bad_input;
   if (!solution.usable()) return RegistrationStatus::diverged;
   if (!minimum(solution)) return RegistrationStatus::not_converged;
   return turned ? RegistrationStatus::fitted : RegistrationStatus::translation_only;
@@ -220,7 +221,6 @@ RegistrationStatus status_of(const Solution& solution, bool turned) {
 }  // namespace
 
 RegistrationSolution RegistrationByDescent::solve(const RegistrationProblem& problem) const {
-  if (refuses(problem)) return {};
   Procrustes sums;
   for (const PointPair& pair : problem.pairs) sums.add(pair.from, pair.to, pair.weight);
   const RegistrationSolution of_squares = sums.solve();

@@ -48,9 +48,13 @@ Scene scene(int neighbours, bool formed) {
 }
 
 void target(benchmark::State& state, const char* behaviour, int neighbours, bool formed,
-            double delta_theta_deg = 0.0) {
+            double delta_theta_deg = 0.0, const char* loss = nullptr) {
   const Scene seen = scene(neighbours, formed);
   shoal::Setting options;
+  if (loss) shoal::assign(options, "loss.kind", {loss, {}});
+  if (loss && std::string(behaviour) == "rigid_registration") {
+    shoal::assign(options, "registration.kind", {"newton", {}});
+  }
   if (delta_theta_deg > 0.0) options.at_or_new("delta_theta_deg").value = delta_theta_deg;
   const auto member = shoal::Registry<Behaviour>::instance().make(behaviour, options, behaviour);
   for (auto _ : state) {
@@ -59,6 +63,9 @@ void target(benchmark::State& state, const char* behaviour, int neighbours, bool
 }
 BENCHMARK_CAPTURE(target, rigid_10_neighbours, "rigid_registration", 10, true);
 BENCHMARK_CAPTURE(target, pairwise_10_neighbours, "pairwise_referencing", 10, true);
+BENCHMARK_CAPTURE(target, rigid_10_neighbours_huber, "rigid_registration", 10, true, 0.0, "huber");
+BENCHMARK_CAPTURE(target, pairwise_10_neighbours_huber, "pairwise_referencing", 10, true, 0.0,
+                  "huber");
 BENCHMARK_CAPTURE(target, attraction_repulsion_10_neighbours, "attraction_repulsion", 10, true);
 BENCHMARK_CAPTURE(target, assignment_12_neighbours_10_deg_formed, "assignment_registration", 12,
                   true, 10.0);
