@@ -1,10 +1,10 @@
+#include <algorithm>
 #include <cmath>
 #include <memory>
 #include <vector>
 
 #include "shoal/formations/behaviour.hpp"
 #include "shoal/formations/fitting.hpp"
-#include "shoal/solvers/autodiff.hpp"
 #include "shoal/solvers/least_squares.hpp"
 #include "shoal/solvers/solver.hpp"
 
@@ -40,18 +40,23 @@ struct PairwiseReferencingOptions : Weights {
 };
 
 /// How far the vehicle is from the places that pairs imply. Unknowns: its position (m, own frame).
-struct DistanceFromPlaces {
-  static constexpr int block_size = 2;
-  std::vector<Vector2d> places;
+class DistanceFromPlaces final : public solvers::VectorFunction {
+ public:
+  explicit DistanceFromPlaces(std::vector<Vector2d> places) : places_(std::move(places)) {}
 
-  int blocks() const { return static_cast<int>(places.size()); }
+  int blocks() const override { return static_cast<int>(places_.size()); }
+  int block_size() const override { return 2; }
 
-  template <class T>
-  void operator()(int block, const T* x, T* r) const {
-    const Vector2d& place = places[static_cast<std::size_t>(block)];
-    r[0] = x[0] - place.x();
-    r[1] = x[1] - place.y();
+  void evaluate(int block, const double* x, double* values, double* jacobian,
+                double* hessians) const override {
+    const Vector2d& place = places_[static_cast<std::size_t>(block)];
+    Eigen::Map<Vector2d>{values} = Eigen::Map<const Vector2d>(x) - place;
+    if (jacobian) Eigen::Map<Eigen::Matrix2d>(jacobian).setIdentity();
+    if (hessians) std::fill_n(hessians, 8, 0.0);
   }
+
+ private:
+  std::vector<Vector2d> places_;
 };
 
 /// Places the vehicle with respect to every pair of neighbours as planned, and goes to the mean of
@@ -117,8 +122,8 @@ class PairwiseReferencing final : public Behaviour {
   solvers::Problem pose(std::vector<Vector2d> places, std::vector<double> weights) const {
     const Vector2d start = start_among(places, weights);
     return solvers::least_squares_problem(
-        start, {solvers::differentiated_blocks<2>(DistanceFromPlaces{std::move(places)}), loss_,
-                std::move(weights)});
+        start,
+        {std::make_shared<const DistanceFromPlaces>(std::move(places)), loss_, std::move(weights)});
   }
 
   /// The mean, or, for robust costs, which have several minima and may be flat far away, the
