@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 #include <memory>
 #include <variant>
@@ -5,7 +6,6 @@
 
 #include "shoal/formations/behaviour.hpp"
 #include "shoal/formations/fitting.hpp"
-#include "shoal/solvers/autodiff.hpp"
 #include "shoal/solvers/least_squares.hpp"
 #include "shoal/solvers/solver.hpp"
 
@@ -41,18 +41,23 @@ struct PairwiseReferencingOptions : Weights {
 };
 
 /// How far the vehicle is from the places that pairs imply. Unknowns: its position (m, own frame).
-struct DistanceFromPlaces {
-  static constexpr int block_size = 2;
-  std::vector<Vector2d> places;
+class DistanceFromPlaces final : public solvers::VectorFunction {
+ public:
+  explicit DistanceFromPlaces(std::vector<Vector2d> places) : places_(std::move(places)) {}
 
-  int blocks() const { return static_cast<int>(places.size()); }
+  int blocks() const override { return static_cast<int>(places_.size()); }
+  int block_size() const override { return 2; }
 
-  template <class T>
-  void operator()(int block, const T* x, T* r) const {
-    const Vector2d& place = places[static_cast<std::size_t>(block)];
-    r[0] = x[0] - place.x();
-    r[1] = x[1] - place.y();
+  void evaluate(int block, const double* x, double* values, double* jacobian,
+                double* hessians) const override {
+    const Vector2d& place = places_[static_cast<std::size_t>(block)];
+    Eigen::Map<Vector2d>{values} = Eigen::Map<const Vector2d>(x) - place;
+    if (jacobian) Eigen::Map<Eigen::Matrix2d>(jacobian).setIdentity();
+    if (hessians) std::fill_n(hessians, 8, 0.0);
   }
+
+ private:
+  std::vector<Vector2d> places_;
 };
 
 /// Places the vehicle with respect to every pair of neighbours as planned, and goes to the mean of
@@ -129,31 +134,48 @@ class PairwiseReferencing final : public Behaviour {
   }
 
   /// The sum of weight * loss(|x - place|^2).
-  ///
-  /// Robust costs have several minima and Tukey's is flat far away, so they start from the cheapest
-  /// of the mean and up to 64 places (of more, 64 that are evenly spread over the pairs).
   solvers::Problem problem_of(std::vector<Vector2d> places, std::vector<double> weights) const {
-    Vector2d start = Vector2d::Zero();
+    const Vector2d start = start_among(places, weights);
+    return solvers::least_squares_problem(
+        start,
+        {std::make_shared<const DistanceFromPlaces>(std::move(places)), loss_, std::move(weights)});
+  }
+
+  /// The mean, or, for robust costs, which have several minima and may be flat far away, the
+  /// cheapest of the mean and up to 256 places (of more, 256 that are evenly spread over them). Of
+  /// places that cost the same, as those do that no other agrees with, the nearest to the mean.
+  Vector2d start_among(const std::vector<Vector2d>& places,
+                       const std::vector<double>& weights) const {
+    Vector2d mean = Vector2d::Zero();
     double sum = 0.0;
     for (std::size_t i = 0; i < places.size(); ++i) {
-      start += weights[i] * places[i];
+      mean += weights[i] * places[i];
       sum += weights[i];
     }
-    start /= sum;
-    const std::vector<Vector2d> candidates = loss_->is_square() ? std::vector<Vector2d>{} : places;
-    solvers::Problem problem = solvers::least_squares_problem(
-        start, {solvers::differentiated_blocks<2>(DistanceFromPlaces{std::move(places)}), loss_,
-                std::move(weights)});
-    double least = problem.evaluate(problem.start.data());
-    const std::size_t count = std::min<std::size_t>(candidates.size(), 64);
+    mean /= sum;
+    if (loss_->is_square()) return mean;
+
+    const auto cost = [&](const Vector2d& x) {
+      double total = 0.0;
+      for (std::size_t i = 0; i < places.size(); ++i) {
+        total += weights[i] * loss_->at((x - places[i]).squaredNorm()).value;
+      }
+      return total;
+    };
+    constexpr double rounding = 1e-12;
+    Vector2d start = mean;
+    double least = cost(mean);
+    const std::size_t count = std::min<std::size_t>(places.size(), 256);
     for (std::size_t k = 0; k < count; ++k) {
-      const Vector2d& place = candidates[k * candidates.size() / count];
-      const double cost = problem.evaluate(place.data());
-      if (!(cost < least)) continue;
-      least = cost;
-      problem.start = place;
+      const Vector2d& place = places[k * places.size() / count];
+      const double there = cost(place);
+      const bool tied = std::abs(there - least) <= rounding * least;
+      const bool nearer = (place - mean).squaredNorm() < (start - mean).squaredNorm();
+      if (!(tied ? nearer : there < least)) continue;
+      least = there;
+      start = place;
     }
-    return problem;
+    return start;
   }
 
   /// Calls visit(place, weight) for every pair of identified neighbours in range.

@@ -1,10 +1,10 @@
 #include "shoal/solvers/registration/descent.hpp"
 
 #include <Eigen/LU>
+#include <algorithm>
 #include <cmath>
 #include <vector>
 
-#include "shoal/solvers/autodiff.hpp"
 #include "shoal/solvers/least_squares.hpp"
 
 namespace shoal::solvers {
@@ -109,40 +109,49 @@ Transform2 agreed_start(const Centred& points, const Loss& loss, bool turns) {
 /// How far the moved points are from their places. Unknowns: arc and shift, or the shift alone, in
 /// addition to a first motion.
 template <int N>
-struct Misplacement {
-  static constexpr int block_size = 2;
-  std::vector<Vector2d> from;  // already turned by the first motion
-  std::vector<Vector2d> to;    // seen from where the first motion shifts to
-  double radius = 1.0;
-
-  Misplacement(const Centred& points, const Transform2& first) : to(points.to) {
-    for (const Vector2d& p : points.from) from.push_back(first.rotate(p));
-    for (Vector2d& p : to) p -= first.translation;
-    radius = points.radius;
+class Misplacement final : public VectorFunction {
+ public:
+  Misplacement(const Centred& points, const Transform2& first)
+      : to_(points.to), radius_(points.radius) {
+    for (const Vector2d& p : points.from) from_.push_back(first.rotate(p));
+    for (Vector2d& p : to_) p -= first.translation;
   }
 
-  int blocks() const { return static_cast<int>(from.size()); }
+  int blocks() const override { return static_cast<int>(from_.size()); }
+  int block_size() const override { return 2; }
 
-  template <class T>
-  void operator()(int block, const T* u, T* r) const {
-    const Vector2d& f = from[static_cast<std::size_t>(block)];
-    const Vector2d& t = to[static_cast<std::size_t>(block)];
-    if constexpr (N == 2) {
-      r[0] = u[0] + (f.x() - t.x());
-      r[1] = u[1] + (f.y() - t.y());
-    } else {
-      using std::cos, std::sin;
-      const T angle = u[0] / radius;
-      const T c = cos(angle), s = sin(angle);
-      r[0] = c * f.x() - s * f.y() + u[1] - t.x();
-      r[1] = s * f.x() + c * f.y() + u[2] - t.y();
+  void evaluate(int block, const double* u, double* values, double* jacobian,
+                double* hessians) const override {
+    const auto b = static_cast<std::size_t>(block);
+    Vector2d turned = from_[b];
+    if constexpr (N == 3) {
+      turned = Transform2::from_angle(u[0] / radius_, Vector2d::Zero()).rotate(turned);
+    }
+    Eigen::Map<Vector2d>{values} = turned + Eigen::Map<const Vector2d>(u + N - 2) - to_[b];
+    if (jacobian) {
+      Eigen::Map<Eigen::Matrix<double, 2, N, Eigen::RowMajor>> slopes(jacobian);
+      slopes.template rightCols<2>().setIdentity();
+      if constexpr (N == 3) slopes.col(0) = Vector2d(-turned.y(), turned.x()) / radius_;
+    }
+    if (hessians) {
+      constexpr int entries = N * N;
+      std::fill_n(hessians, 2 * entries, 0.0);
+      if constexpr (N == 3) {
+        hessians[0] = -turned.x() / (radius_ * radius_);
+        hessians[entries] = -turned.y() / (radius_ * radius_);
+      }
     }
   }
+
+ private:
+  std::vector<Vector2d> from_;  // already turned by the first motion
+  std::vector<Vector2d> to_;    // seen from where the first motion shifts to
+  double radius_;
 };
 
 template <int N>
 Problem pose(const Centred& points, const Transform2& first, const Loss* loss) {
-  LeastSquares structure{differentiated_blocks<N>(Misplacement<N>(points, first)),
+  LeastSquares structure{std::make_shared<const Misplacement<N>>(points, first),
                          std::shared_ptr<const Loss>(std::shared_ptr<const Loss>(), loss),
                          points.weights};
   return least_squares_problem(Eigen::Matrix<double, N, 1>::Zero(), std::move(structure));
@@ -212,6 +221,7 @@ Descended lowest(const Solver& solver, const Centred& points, const Transform2& 
 }
 
 RegistrationStatus status_of(const Solution& solution, bool turned) {
+  if (solution.status == Status::bad_input) return RegistrationStatus::bad_input;
   if (!solution.usable()) return RegistrationStatus::diverged;
   if (!minimum(solution)) return RegistrationStatus::not_converged;
   return turned ? RegistrationStatus::fitted : RegistrationStatus::translation_only;
@@ -220,7 +230,6 @@ RegistrationStatus status_of(const Solution& solution, bool turned) {
 }  // namespace
 
 RegistrationSolution RegistrationByDescent::solve(const RegistrationProblem& problem) const {
-  if (refuses(problem)) return {};
   Procrustes sums;
   for (const PointPair& pair : problem.pairs) sums.add(pair.from, pair.to, pair.weight);
   const RegistrationSolution of_squares = sums.solve();

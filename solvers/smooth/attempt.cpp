@@ -215,6 +215,12 @@ Solution Attempt::finish_converged(const char* says) {
   return answer(Status::converged, 0, says);
 }
 
+bool Attempt::may_end_after(double step) {
+  constexpr int patience = 20;
+  short_steps_ = step <= limits_.x_tolerance_m ? short_steps_ + 1 : 0;
+  return short_steps_ > 0 && (short_steps_ > patience || at_minimum());
+}
+
 bool Attempt::at_minimum() const {
   double steepest = std::sqrt(steepest_squared_);
   if (steepest == 0.0) {  // of a method that uses no derivatives: the slope at the start will do

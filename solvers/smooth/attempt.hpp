@@ -60,8 +60,10 @@ class Attempt {
   /// The best point so far; NaN before the first fine evaluation.
   Problem::Vector best() const { return free_part(best_); }
 
-  /// Whether the best point is a minimum by our own check: for backends that may be asked to go on.
-  bool at_minimum() const;
+  /// Whether a backend that has just made a step of this length (m) may end: if the step is short
+  /// and the best point is a minimum. A step may also be short because the line search or the trust
+  /// region is; then it may go on, for some more short steps.
+  bool may_end_after(double step);
 
   /// The highest cost so far: what a backend may be told that needs a number where there is none.
   /// -infinity before the first fine evaluation.
@@ -81,6 +83,7 @@ class Attempt {
   bool may_go_on();                      ///< counts an evaluation, or ends the attempt
   bool evaluate_some_free(const double* y, double& cost, double* gradient, double* hessian);
   void remember(const double* x, double cost);
+  bool at_minimum() const;
   Status judge() const;
   Solution answer(Status status, int code, const char* says) const;
 
@@ -107,6 +110,7 @@ class Attempt {
   double steepest_squared_ = 0.0;
   double cost_of_blocks_ = 0.0;
   int next_block_ = 0;
+  int short_steps_ = 0;  // in a row
   std::int64_t evaluations_ = 0;
   std::exception_ptr failure_;
   bool stopped_ = false;

@@ -28,20 +28,17 @@ class Cost final : public ceres::FirstOrderFunction {
 /// Ceres' own tolerance is relative to |x|, which is about zero at a vehicle's target.
 class ShortStep final : public ceres::IterationCallback {
  public:
-  ShortStep(const Attempt& attempt, double tolerance) : attempt_(attempt), tolerance_(tolerance) {}
+  explicit ShortStep(Attempt& attempt) : attempt_(attempt) {}
 
   ceres::CallbackReturnType operator()(const ceres::IterationSummary& iteration) override {
     if (attempt_.must_stop()) return ceres::SOLVER_ABORT;
-    const bool moved = iteration.iteration > 0;
-    // A step may be short because the line search or the trust region is: then it goes on.
-    return moved && iteration.step_norm <= tolerance_ && attempt_.at_minimum()
-               ? ceres::SOLVER_TERMINATE_SUCCESSFULLY
-               : ceres::SOLVER_CONTINUE;
+    if (iteration.iteration == 0) return ceres::SOLVER_CONTINUE;
+    return attempt_.may_end_after(iteration.step_norm) ? ceres::SOLVER_TERMINATE_SUCCESSFULLY
+                                                       : ceres::SOLVER_CONTINUE;
   }
 
  private:
-  const Attempt& attempt_;
-  double tolerance_;
+  Attempt& attempt_;
 };
 
 template <ceres::LineSearchDirectionType direction>
@@ -55,7 +52,7 @@ class LineSearch final : public Solver {
     if (!attempt.open()) return attempt.finish(0, "");
 
     ceres::GradientProblem posed(new Cost(attempt));
-    ShortStep short_step(attempt, options_.x_tolerance_m);
+    ShortStep short_step(attempt);
     ceres::GradientProblemSolver::Options options;
     options.line_search_direction_type = direction;
     options.logging_type = ceres::SILENT;

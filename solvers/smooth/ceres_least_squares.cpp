@@ -66,20 +66,17 @@ class Trials final : public ceres::EvaluationCallback {
 
 class ShortStep final : public ceres::IterationCallback {
  public:
-  ShortStep(const Attempt& attempt, double tolerance) : attempt_(attempt), tolerance_(tolerance) {}
+  explicit ShortStep(Attempt& attempt) : attempt_(attempt) {}
 
   ceres::CallbackReturnType operator()(const ceres::IterationSummary& iteration) override {
     if (attempt_.must_stop()) return ceres::SOLVER_ABORT;
-    const bool moved = iteration.iteration > 0 && iteration.step_is_successful;
-    // A step may be short because the line search or the trust region is: then it goes on.
-    return moved && iteration.step_norm <= tolerance_ && attempt_.at_minimum()
-               ? ceres::SOLVER_TERMINATE_SUCCESSFULLY
-               : ceres::SOLVER_CONTINUE;
+    if (iteration.iteration == 0 || !iteration.step_is_successful) return ceres::SOLVER_CONTINUE;
+    return attempt_.may_end_after(iteration.step_norm) ? ceres::SOLVER_TERMINATE_SUCCESSFULLY
+                                                       : ceres::SOLVER_CONTINUE;
   }
 
  private:
-  const Attempt& attempt_;
-  double tolerance_;
+  Attempt& attempt_;
 };
 
 /// Levenberg-Marquardt on the residuals.
@@ -109,7 +106,7 @@ class TrustRegion final : public Solver {
         posed.SetParameterUpperBound(y.data(), k, upper[k]);
       }
     }
-    ShortStep short_step(attempt, options_.x_tolerance_m);
+    ShortStep short_step(attempt);
     ceres::Solver::Options options;
     options.linear_solver_type = ceres::DENSE_QR;
     options.logging_type = ceres::SILENT;

@@ -47,31 +47,36 @@ Scene scene(int neighbours, bool formed) {
   return {std::move(plan), std::move(heard), own};
 }
 
+using Choices = std::vector<std::pair<const char*, const char*>>;
+
 void target(benchmark::State& state, const char* behaviour, int neighbours, bool formed,
-            double delta_theta_deg = 0.0, const char* potential = nullptr,
-            const char* selection = nullptr) {
+            const Choices& choices = {}, double delta_theta_deg = 0.0) {
   const Scene seen = scene(neighbours, formed);
   shoal::Setting options;
   if (delta_theta_deg > 0.0) options.at_or_new("delta_theta_deg").value = delta_theta_deg;
-  if (potential) assign(options, "potential.kind", {std::string(potential), {}});
-  if (selection) assign(options, "selection.kind", {std::string(selection), {}});
+  for (const auto& [key, kind] : choices) assign(options, key, {std::string(kind), {}});
   const auto member = shoal::Registry<Behaviour>::instance().make(behaviour, options, behaviour);
   for (auto _ : state) {
     benchmark::DoNotOptimize(member->step({seen.heard, seen.own}, seen.plan));
   }
 }
+
 BENCHMARK_CAPTURE(target, rigid_10_neighbours, "rigid_registration", 10, true);
+BENCHMARK_CAPTURE(target, rigid_10_neighbours_huber, "rigid_registration", 10, true,
+                  Choices{{"loss.kind", "huber"}, {"registration.kind", "newton"}});
 BENCHMARK_CAPTURE(target, pairwise_10_neighbours, "pairwise_referencing", 10, true);
+BENCHMARK_CAPTURE(target, pairwise_10_neighbours_huber, "pairwise_referencing", 10, true,
+                  Choices{{"loss.kind", "huber"}});
 BENCHMARK_CAPTURE(target, attraction_repulsion_10_neighbours, "attraction_repulsion", 10, true);
 BENCHMARK_CAPTURE(target, attraction_repulsion_10_neighbours_expression, "attraction_repulsion", 10,
-                  true, 0.0, "expression");
+                  true, Choices{{"potential.kind", "expression"}});
 BENCHMARK_CAPTURE(target, attraction_repulsion_10_neighbours_k_nearest, "attraction_repulsion", 10,
-                  true, 0.0, nullptr, "k_nearest");
+                  true, Choices{{"selection.kind", "k_nearest"}});
 BENCHMARK_CAPTURE(target, attraction_repulsion_10_neighbours_delaunay, "attraction_repulsion", 10,
-                  true, 0.0, nullptr, "delaunay");
+                  true, Choices{{"selection.kind", "delaunay"}});
 BENCHMARK_CAPTURE(target, assignment_12_neighbours_10_deg_formed, "assignment_registration", 12,
-                  true, 10.0);
+                  true, Choices{}, 10.0);
 BENCHMARK_CAPTURE(target, assignment_12_neighbours_10_deg_in_a_box, "assignment_registration", 12,
-                  false, 10.0);
+                  false, Choices{}, 10.0);
 
 }  // namespace

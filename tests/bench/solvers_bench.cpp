@@ -69,6 +69,27 @@ void procrustes(benchmark::State& state) {
 }
 BENCHMARK(procrustes)->ArgName("neighbours")->Arg(10)->Arg(19);
 
+void registration(benchmark::State& state, const char* name, const char* loss_name) {
+  std::mt19937 generator(1);
+  const Points from = in_a_box(10, 1000.0, generator);
+  const Points to = near_to(from, generator);
+  std::vector<PointPair> pairs;
+  for (std::size_t i = 0; i < from.size(); ++i) pairs.push_back({from[i], to[i]});
+  const auto loss = Registry<Loss>::instance().make(loss_name, Setting{}, "loss");
+  const auto solver = Registry<RegistrationSolver>::instance().make(name, Setting{}, name);
+  int evaluations = 0;
+  for (auto _ : state) {
+    const RegistrationSolution solution = solver->solve({pairs, loss.get()});
+    benchmark::DoNotOptimize(solution.cost);
+    evaluations = solution.evaluations;
+  }
+  state.counters["evaluations"] = evaluations;
+}
+BENCHMARK_CAPTURE(registration, procrustes, "procrustes", "least_squares");
+BENCHMARK_CAPTURE(registration, newton_huber, "newton", "huber")->Unit(benchmark::kMicrosecond);
+BENCHMARK_CAPTURE(registration, newton_tukey, "newton", "tukey")->Unit(benchmark::kMicrosecond);
+BENCHMARK_CAPTURE(registration, ceres_huber, "ceres", "huber")->Unit(benchmark::kMicrosecond);
+
 void assignment(benchmark::State& state, bool near) {
   std::mt19937 generator(1);
   const auto n = static_cast<std::size_t>(state.range(0));

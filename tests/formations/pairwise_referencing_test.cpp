@@ -90,31 +90,6 @@ TEST(PairwiseReferencing, FindsTheExactSlotWhereverTheVehicleAndTheFormationAre)
   }
 }
 
-TEST(PairwiseReferencing, TurnsWithTheNeighboursAndIgnoresPoseNumbersAndOrder) {
-  const auto pairwise = behaviour(kind, {{"contact_rangeout_m", 1e4}});
-  EXPECT_TRUE(rc::check("rotation, plan frame, labels, order", [&] {
-    const Plan plan = drawn_plan(3, 16);
-    const int own = drawn_int(0, plan.size() - 1);
-    const Neighbours seen = drawn_neighbours(plan, own);
-    const Vector2d target = pairwise->step({seen, own}, plan).position;
-
-    const Transform2 turn = rotation(drawn_angle());
-    const Vector2d by_turned = pairwise->step({turned(seen, turn), own}, plan).position;
-    RC_ASSERT((by_turned - turn.rotate(target)).norm() < 1e-7);
-
-    const Vector2d by_moved = pairwise->step({seen, own}, moved(plan, drawn_motion())).position;
-    RC_ASSERT((by_moved - target).norm() < 1e-7);
-
-    const std::vector<int> order = drawn_order(plan.size());
-    Neighbours relabelled = shuffled(seen);
-    for (Neighbour& n : relabelled) n.slot = order[static_cast<std::size_t>(n.slot)];
-    const int own_anew = order[static_cast<std::size_t>(own)];
-    const Vector2d by_labels =
-        pairwise->step({relabelled, own_anew}, renumbered(plan, order)).position;
-    RC_ASSERT((by_labels - target).norm() < 1e-7);
-  }));
-}
-
 TEST(PairwiseReferencing, HoldsWithoutAPairItKnows) {
   const auto pairwise = behaviour(kind);
   EXPECT_EQ(pairwise->step({{}, 0}, triangle).reason, Reason::no_neighbour);

@@ -41,6 +41,27 @@ TEST(RigidRegistration, IgnoresNeighboursOutOfRangeAndWithoutId) {
   EXPECT_EQ(behaviour(kind)->step({seen, 0}, cross).position, alone.position);
 }
 
+TEST(RigidRegistration, WeighsNeighboursByNearnessOrFreshness) {
+  // All on one line, so that nothing turns: the plan moves by the weighted mean of 0, 10 and -30 m.
+  const Plan line = plan_of({{0, 0}, {100, 0}, {-200, 0}});
+  const Neighbours seen{{{110, 0}, 30.0, 1}, {{-230, 0}, 150.0, 2}};
+  const auto step = [&](const char* weighting) {
+    const Target target = behaviour(kind, {{"weighting", weighting}})->step({seen, 0}, line);
+    EXPECT_NEAR(target.position.y(), 0.0, 1e-12);
+    return target.position.x();
+  };
+  EXPECT_NEAR(step("none"), -20.0 / 3.0, 1e-12);
+  const double near = 1.0 - 110.0 / 650.0, far = 1.0 - 230.0 / 650.0;
+  EXPECT_NEAR(step("distance"), (10.0 * near - 30.0 * far) / (1.0 + near + far), 1e-12);
+  EXPECT_NEAR(step("ping_age"), 10.0 * 0.75 / 1.75, 1e-12);  // 1 - 30 s / 120 s, and none
+}
+
+TEST(RigidRegistration, HoldsWhenAllPingsAreOlderThanTheirWeightLasts) {
+  const Neighbours seen{{{110, 0}, 130.0, 1}, {{-50, 100}, 125.0, 2}};
+  EXPECT_EQ(behaviour(kind, {{"weighting", "ping_age"}})->step({seen, 0}, cross).reason,
+            Reason::degenerate);
+}
+
 TEST(RigidRegistration, StaysWhereTheFormationIsAsPlannedWhateverItsPose) {
   const auto rigid = behaviour(kind, {{"contact_rangeout_m", 1e4}});
   EXPECT_TRUE(rc::check("placed as planned: zero displacement", [&] {
@@ -63,31 +84,6 @@ TEST(RigidRegistration, FindsTheExactSlotWhenOnlyTheNeighboursCount) {
     const Neighbours seen = heard(plan, own, drawn_motion(), displaced);
     // Neighbours 5 m apart give a direction whose rounding grows over the distance to the slot.
     RC_ASSERT((rigid->step({seen, own}, plan).position + displaced).norm() < 1e-8);
-  }));
-}
-
-TEST(RigidRegistration, TurnsWithTheNeighboursAndIgnoresPoseNumbersAndOrder) {
-  const auto rigid = behaviour(kind, {{"contact_rangeout_m", 1e4}});
-  EXPECT_TRUE(rc::check("rotation, plan frame, labels, order", [&] {
-    const Plan plan = drawn_plan(3, 16);
-    const int own = drawn_int(0, plan.size() - 1);
-    const Neighbours seen = drawn_neighbours(plan, own);
-    const Vector2d target = rigid->step({seen, own}, plan).position;
-
-    const Transform2 turn = rotation(drawn_angle());
-    const Vector2d by_turned = rigid->step({turned(seen, turn), own}, plan).position;
-    RC_ASSERT((by_turned - turn.rotate(target)).norm() < 1e-7);
-
-    const Vector2d by_moved = rigid->step({seen, own}, moved(plan, drawn_motion())).position;
-    RC_ASSERT((by_moved - target).norm() < 1e-7);
-
-    const std::vector<int> order = drawn_order(plan.size());
-    Neighbours relabelled = shuffled(seen);
-    for (Neighbour& n : relabelled) n.slot = order[static_cast<std::size_t>(n.slot)];
-    const int own_anew = order[static_cast<std::size_t>(own)];
-    const Vector2d by_labels =
-        rigid->step({relabelled, own_anew}, renumbered(plan, order)).position;
-    RC_ASSERT((by_labels - target).norm() < 1e-7);
   }));
 }
 

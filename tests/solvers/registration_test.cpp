@@ -418,7 +418,7 @@ TEST(Registration, FindsTheLowestCostOfAllAmongOutliers) {
         const RegistrationSolution found = solver(with)->solve({pairs, of.get()});
         RC_LOG() << kind << " by " << with << ": " << name_of(found.status) << ", " << found.cost
                  << ", oracle " << least << '\n';
-        RC_ASSERT(found.status == RegistrationStatus::fitted);
+        RC_ASSERT(found.usable());
         RC_ASSERT(std::abs(found.cost - least) < 1e-5 * (1.0 + least));
       }
     }));
@@ -522,7 +522,7 @@ TEST(Registration, SaysWhenItsEvaluationsRanOut) {
   const Pairs pairs = lattice(500.0);
   const auto huber = loss("huber", 5.0);
   for (const std::string& with : descents()) {
-    const RegistrationSolution solution = solver(with, 0.0, 1)->solve({pairs, huber.get()});
+    const RegistrationSolution solution = solver(with, 1e-9, 1)->solve({pairs, huber.get()});
     EXPECT_TRUE(is(solution, RegistrationStatus::not_converged)) << with;
     EXPECT_TRUE(solution.usable());
     EXPECT_EQ(solution.evaluations, 2) << with;  // one a start
