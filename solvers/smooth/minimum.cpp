@@ -109,11 +109,11 @@ bool lowest_around(const Vector& slope, const Matrix& curvature, double longest,
   const Eigen::SelfAdjointEigenSolver<Square> eigen(bend);
   const Part bends = eigen.eigenvalues();
   const Part along = eigen.eigenvectors().transpose() * slope;
-  const double none = rounding * bends.cwiseAbs().maxCoeff();
+  const double largest = bends.cwiseAbs().maxCoeff();
   double squared = 0.0;
   for (Eigen::Index i = 0; i < bends.size(); ++i) {
-    if (bends[i] < -none) return false;
-    if (bends[i] > none) {
+    if (bends[i] < -negligible_bend * largest) return false;
+    if (bends[i] > rounding * largest) {
       squared += along[i] * along[i] / (bends[i] * bends[i]);
     } else if (std::abs(along[i]) > flat * steepest) {
       return false;

@@ -4,6 +4,10 @@
 
 namespace shoal::solvers {
 
+/// Downward bends of less than this part of the largest bend are taken for flat: near the ring
+/// round a single neighbour the cost curves downwards along it by as much as the ring is missed.
+inline constexpr double negligible_bend = 1e-4;
+
 /// How far a point is outside the bounds, m.
 double bounds_violation(const Problem& problem, const Problem::Vector& x);
 

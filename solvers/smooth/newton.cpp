@@ -4,12 +4,13 @@
 #include <cmath>
 
 #include "shoal/solvers/smooth/attempt.hpp"
+#include "shoal/solvers/smooth/minimum.hpp"
 
 namespace shoal::solvers {
 namespace {
 
 struct NewtonOptions : Limits {
-  double first_radius_m = 10.0;
+  double first_radius_m = 30.0;
   double largest_radius_m = 100.0;
 
   static void declare(Options<NewtonOptions>& o) {
@@ -43,44 +44,47 @@ struct Point {
   }
 };
 
-/// The lowest point of slope . p + p . curvature p / 2 within the radius: Moré and Sorensen 1983,
-/// Computing a trust region step, by way of the eigenvalues, which are cheap in two or three
-/// unknowns.
+/// A step of at most `radius` down the slope: Newton's where the cost curves upwards. In a
+/// direction in which it curves downwards, Newton's step would lead up; there the step goes down
+/// the slope by as much, and not at all if there is no slope. (The lowest point of the model within
+/// the radius, Moré and Sorensen 1983, would leave the slope for a direction that curves downwards:
+/// a vehicle pushed off by a single neighbour would swerve around it.)
 template <int N>
-Vec<N> lowest_within(const Vec<N>& slope, const Mat<N>& curvature, double radius) {
+Vec<N> step_down(const Vec<N>& slope, const Mat<N>& curvature, double radius, double shortest) {
+  // Bends smaller than this are taken for rounding, and would make long steps of it.
+  constexpr double rounding = 1e-10;
   const Eigen::LLT<Mat<N>> factor(curvature);
   if (factor.info() == Eigen::Success) {
+    const auto pivots = factor.matrixLLT().diagonal().array().square();
     const Vec<N> newton = -factor.solve(slope);
-    if (newton.squaredNorm() <= radius * radius) return newton;
+    if (pivots.minCoeff() > rounding * pivots.maxCoeff() &&
+        newton.squaredNorm() <= radius * radius) {
+      return newton;
+    }
   }
   const Eigen::SelfAdjointEigenSolver<Mat<N>> eigen(curvature);
   const Vec<N>& bends = eigen.eigenvalues();
   const Vec<N> along = eigen.eigenvectors().transpose() * slope;
+  const double largest = std::max(bends.cwiseAbs().maxCoeff(), std::numeric_limits<double>::min());
+  const Vec<N> sizes = bends.cwiseAbs().cwiseMax(rounding * largest);
+  const auto step = [&](double shift) { return Vec<N>(-along.array() / (sizes.array() + shift)); };
 
-  // |p(shift)| falls as the shift grows; it must be found where |p| = radius. Below the least
-  // eigenvalue the model has no lowest point.
-  const auto step = [&](double shift) { return Vec<N>(-along.array() / (bends.array() + shift)); };
-  const double size = std::max(std::abs(bends[0]), std::abs(bends[N - 1]));
-  const double floor = std::max(0.0, -bends[0]) + 1e-14 * size;
-  double low = floor, high = std::max(floor, slope.norm() / radius - bends[0]);
-  if (!(floor > 0.0)) low = std::numeric_limits<double>::min();
-  Vec<N> p = step(low);
-  if (!(p.norm() > radius)) {
-    // The hard case: the slope has no part along the least bend, which leads down all the same.
-    const double rest = radius * radius - p.squaredNorm();
-    if (bends[0] <= 0.0) p[0] += (along[0] > 0.0 ? -1.0 : 1.0) * std::sqrt(std::max(0.0, rest));
+  // |p| falls as the shift grows; here no part of it is longer than the radius, and the whole not
+  // shorter unless the shift is zero.
+  double shift = std::max(0.0, (along.cwiseAbs() / radius - sizes).maxCoeff());
+  Vec<N> p = step(shift);
+  if (shift == 0.0 && p.norm() <= shortest && bends[0] < -negligible_bend * largest) {
+    // A saddle or a summit: no slope, but ways down.
+    p.setZero();
+    p[0] = along[0] > 0.0 ? -radius : radius;
     return eigen.eigenvectors() * p;
   }
-  double shift = low;
-  for (int i = 0; i < 50; ++i) {
+  // Newton's method on 1/|p| - 1/radius, which comes to the shift from below: 1/|p| is concave.
+  for (int i = 0; i < 20 && p.norm() > 1.001 * radius; ++i) {
+    const double squared = p.squaredNorm(), length = std::sqrt(squared);
+    const double fall = (p.array().square() / (sizes.array() + shift)).sum();
+    shift += (length - radius) / radius * squared / fall;
     p = step(shift);
-    const double length = p.norm();
-    if (std::abs(length - radius) <= 1e-3 * radius) break;
-    (length > radius ? low : high) = shift;
-    // Newton's method on 1/|p| - 1/radius, which is almost a straight line.
-    const double fall = (p.array().square() / (bends.array() + shift)).sum() / length;
-    shift += (length - radius) / radius * length / fall;
-    if (!(shift > low && shift < high)) shift = 0.5 * (low + high);
   }
   return eigen.eigenvectors() * p;
 }
@@ -108,7 +112,8 @@ class Descent {
 
     while (radius >= shortest) {
       const Vec<N> step = attempt_.bounded() ? step_inside_bounds(here, radius)
-                                             : lowest_within<N>(here.slope, here.curvature, radius);
+                                             : step_down<N>(here.slope, here.curvature, radius,
+                                                            options_.x_tolerance_m);
       const double length = step.norm();
       const double expected = -(here.slope.dot(step) + 0.5 * step.dot(here.curvature * step));
       if (length <= options_.x_tolerance_m && length < 0.9 * radius && !attempt_.bounded()) {
@@ -153,7 +158,7 @@ class Descent {
       curvature.col(i).setZero();
       curvature(i, i) = 1.0;
     }
-    const Vec<N> step = lowest_within<N>(slope, curvature, radius);
+    const Vec<N> step = step_down<N>(slope, curvature, radius, options_.x_tolerance_m);
     Vec<N> end = (here.x + step).cwiseMax(lower_).cwiseMin(upper_);
     for (int i = 0; i < N; ++i) {
       if (held[i]) end[i] = here.x[i];

@@ -72,6 +72,7 @@ TEST(Planner, TellsTheBehaviourWhereTheVehicleIs) {
       told = seen.own_position;
       return Target::hold(Reason::no_neighbour);
     }
+    void pose(const Neighbourhood&, const Plan&, ProblemViewer&) const override {}
     bool needs_ids() const override { return false; }
   };
   const auto listener = std::make_shared<const Listener>();

@@ -103,9 +103,21 @@ TEST(Newton, EndsWhereTheSlopeLeads) {
       same += (x - downhill).norm() < 0.5;
       leapt += x.norm() > downhill.norm() + separation;
     }
-    EXPECT_GE(same, 970) << "separation " << separation;
+    EXPECT_GE(same, 995) << "separation " << separation;
     EXPECT_EQ(leapt, 0) << "separation " << separation;
   }
+}
+
+// Across the slope this cost curves downwards, which is no reason to swerve.
+TEST(Newton, GoesStraightAwayFromASingleNeighbour) {
+  const auto ring = [](const auto* p) {
+    using std::sqrt;
+    const auto squared = p[0] * p[0] + (p[1] - 200.0) * (p[1] - 200.0);
+    return 0.5 * 300.0 * 300.0 * 300.0 / squared + sqrt(squared) - 900.0;
+  };
+  const Solution solution = newton()->solve(Problem(Vector2d(0, 0), differentiated<2>(ring)));
+  EXPECT_EQ(name_of(solution.status), "converged");
+  EXPECT_NEAR((Vector2d(solution.x) - Vector2d(0, -100)).norm(), 0.0, 1e-3);
 }
 
 TEST(Newton, NeverStepsFurtherThanAllowed) {
