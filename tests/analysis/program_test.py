@@ -229,7 +229,7 @@ BAD_ARGUMENTS = [
       "attraction_repulsion.solver.nlopt.mma.max_evaluations is 0; it takes from 1 to 1e+09\n"]),
     (["list", "behavior"], ['no family "behavior"', 'did you mean "behaviour"?']),
     (["list", "solvres"], ['no family "solvres"', 'did you mean "solver"?']),
-    (["list", "everything"], ['no family "everything"', "known are behaviour, current, "]),
+    (["list", "everything"], ['no family "everything"', "known are behaviour, cohesion, current, "]),
     (["describe"], ["required"]),
     (["describe", "rigid"], ['"rigid"', 'did you mean "rigid_registration"?']),
     (["describe", "quux quux"], ["shoal list"]),
@@ -248,6 +248,27 @@ BAD_ARGUMENTS = [
      ['there is no solver "nlopt.lbgfs"; did you mean "nlopt.lbfgs"?']),
     (["describe", "behaviour.attraction_repulsion.solver.nlopt.lbfgs.evaluations"],
      ['behaviour.attraction_repulsion.solver.nlopt.lbfgs has no option "evaluations"']),
+    (["solve"], ["required"]),
+    (["solve", "missing.jsonl"], ["--solvers is required"]),
+    (["solve", "missing.jsonl", "--solvers", "newton"], ["cannot open missing.jsonl"]),
+    (["solve", "notes.txt", "--solvers", "newton"], ["notes.txt: holds no problem"]),
+    (["solve", "ok.toml", "--solvers", "newton"],
+     ["ok.toml:1: this is no line of a corpus; shoal run --record-problems writes one"]),
+    (["solve", "ok.toml", "--solvers", "newtn"],
+     ['there is no solver "newtn"; did you mean "newton"?']),
+    (["solve", "ok.toml", "--solvers", "newton", "--format", "pdf"],
+     ['there is no format "pdf"', "text, csv, markdown and latex"]),
+    (["solve", "ok.toml", "--solvers", "newton", "--set", "newton.max_evaluations=3"],
+     ['there is no family of solvers "newton"', "known are solver, registration and matching"]),
+    (["solve", "ok.toml", "--solvers", "newton", "--set", "solver.newton.max_evaluation=3"],
+     ['solver.newton has no option "max_evaluation"; did you mean "max_evaluations"?']),
+    (["solve", "ok.toml", "--solvers", "newton", "--reference", "grid"],
+     ['the reference "grid" is not among the solvers']),
+    (["solve", "ok.toml", "--solvers", "newton", "--same-within", "-1"], ["--same-within"]),
+    (["corpus"], ["required"]),
+    (["corpus", "c.jsonl", "--keep", "0"], ["--keep"]),
+    (["corpus", "c.jsonl", "--duration", "-5"], ["trial.duration_s is -5"]),
+    (["corpus", "c.jsonl", "--seed", "x"], ["trial.seed"]),
     (["check"], ["required"]),
     (["check", "missing.toml"], ["missing.toml"]),
     (["check", "missing.csv"], ["missing.csv"]),
@@ -372,7 +393,7 @@ class Help(Desk):
         return done.stdout
 
     def test_help_names_the_commands(self):
-        for command in ["run", "list", "describe", "check"]:
+        for command in ["run", "list", "describe", "check", "corpus", "solve"]:
             self.assertIn(command, self.say("--help"))
             self.assertIn("--help", self.say(command, "--help"))
 
@@ -484,6 +505,78 @@ class Trials(Desk):
         self.assertLess(metrics["energy_min_wh"], metrics["energy_mean_wh"])
         self.assertLess(metrics["energy_mean_wh"], metrics["energy_max_wh"])
         self.assertGreater(metrics["centroid_path_m"], metrics["centroid_displacement_m"])
+
+    def test_recorded_problems_leave_the_numbers_alone(self):
+        short = ["construction_square", "--set", "trial.duration_s=300"]
+        plain = self.run_trial(*short)["metrics"]
+        for threads in ("1", "3"):
+            file = f"problems{threads}.jsonl"
+            done = self.shoal("run", *short, "--threads", threads, "--out", "recorded",
+                              "--record-problems", file)
+            self.assertEqual((done.returncode, done.stderr), (0, ""))
+            self.assertIn(f"written: {file}, ", done.stdout)
+            metrics = json.loads((self.desk / "recorded/summary.json").read_text())["metrics"]
+            self.assertEqual(metrics, plain)
+        one, many = (self.desk / f"problems{n}.jsonl" for n in (1, 3))
+        self.assertEqual(one.read_bytes(), many.read_bytes())
+
+    def test_solvers_are_compared_on_recorded_problems_in_four_formats(self):
+        for behaviour in BEHAVIOURS:
+            self.shoal("run", "construction_square", "--set", "trial.duration_s=90", "--set",
+                       f"behaviour.kind={behaviour}", "--out", "o", "--record-problems",
+                       f"{behaviour}.jsonl")
+            solvers = "newton,nlopt.slsqp,grid,procrustes,sampled"
+            arguments = ["solve", f"{behaviour}.jsonl", "--solvers", solvers]
+            text = self.shoal(*arguments)
+            self.assertEqual((text.returncode, text.stderr), (0, ""))
+            head = text.stdout.splitlines()[0]
+            for column in ("solved %", "same minimum %", "other minimum %", "evaluations",
+                           "median us", "p95 us", "worst gap", "not solved"):
+                self.assertIn(column, head)
+            csv = self.shoal(*arguments, "--format", "csv", "--profiles", "profiles.csv").stdout
+            rows = [line.split(",") for line in csv.splitlines()[1:]]
+            self.assertTrue(rows)
+            for row in rows:
+                wanted = "0.00" if row[1] == "grid" else "100.00"
+                if row[1] != "nlopt.slsqp":
+                    self.assertEqual(row[3], wanted, row)
+            if behaviour == "attraction_repulsion":
+                self.assertIn("refused: needs finite bounds", csv)
+            profiles = (self.desk / "profiles.csv").read_text().splitlines()
+            self.assertEqual(profiles[0], "family,measure,solver,factor,share")
+            self.assertGreater(len(profiles), 50)
+            markdown = self.shoal(*arguments, "--format", "markdown").stdout
+            self.assertTrue(markdown.splitlines()[1].startswith("|---"))
+            self.assertIn("\\toprule", self.shoal(*arguments, "--format", "latex").stdout)
+
+    def test_a_corpus_holds_problems_of_every_scenario_and_behaviour(self):
+        done = self.shoal("corpus", "c.jsonl", "--duration", "60", "--keep", "2")
+        self.assertEqual((done.returncode, done.stderr), (0, ""))
+        heads = [json.loads(line) for line in (self.desk / "c.jsonl").read_text().splitlines()]
+        heads = [head for head in heads if "plan" in head]
+        scenarios = self.shoal("list", "scenarios").stdout.splitlines()[1:]
+        self.assertEqual(len(heads), len(scenarios) * len(BEHAVIOURS))
+        again = self.shoal("corpus", "d.jsonl", "--duration", "60", "--keep", "2")
+        self.assertEqual(again.returncode, 0)
+        self.assertEqual((self.desk / "c.jsonl").read_bytes(),
+                         (self.desk / "d.jsonl").read_bytes())
+
+    def test_every_local_solver_flies_a_swarm(self):
+        key = "behaviour.attraction_repulsion.solver.kind"
+        solvers = [line.split()[0] for line in
+                   self.shoal("list", "solvers").stdout.splitlines()[1:]]
+        flown = []
+        for solver in solvers:
+            done = self.shoal("run", "construction_hexagonal", "--set", "trial.duration_s=120",
+                              "--set", "behaviour.kind=attraction_repulsion", "--set",
+                              f"{key}={solver}", "--out", solver)
+            if done.returncode == 0:
+                flown.append(solver)
+                continue
+            self.assert_complains(done, 2, [f"solver.{solver}: ", "needs", "; choose a solver"])
+        self.assertEqual(set(solvers) - set(flown),
+                         {"ceres.least_squares", "grid", "nlopt.crs2", "nlopt.direct_l",
+                          "nlopt.isres", "nlopt.mlsl", "nlopt.stogo"})
 
     def test_the_written_scenario_runs_again_to_the_same_numbers(self):
         first = self.run_trial("redsea_square", "--set", "trial.duration_s=300", "--seed", "5",
