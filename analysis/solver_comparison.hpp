@@ -13,7 +13,7 @@ namespace shoal::analysis {
 struct ComparisonSettings {
   std::vector<std::string> solvers;
   std::string reference;  ///< whose minimum is "the same" one; empty: a family's first solver
-  Setting options;  ///< family -> solver -> option
+  Setting options;        ///< family -> solver -> option
 };
 
 /// One solver, and its answers to all problems of its family in their order.
