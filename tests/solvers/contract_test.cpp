@@ -104,6 +104,16 @@ struct Rough {
   }
 };
 
+// 1 / r^2 + 2 r: infinite at the origin, lowest on the unit circle.
+struct Pole {
+  template <class T>
+  T operator()(const T* x) const {
+    using std::sqrt;
+    const T squared = x[0] * x[0] + x[1] * x[1];
+    return 1.0 / squared + 2.0 * sqrt(squared);
+  }
+};
+
 class EverySolver : public testing::TestWithParam<std::string> {
  protected:
   static std::unique_ptr<Solver> make(const Setting& options = {}) {
@@ -219,6 +229,22 @@ TEST_P(EverySolver, StaysInsideTheBoundsOrSaysThatItTakesNone) {
   EXPECT_NEAR((Vector2d(solution.x) - Vector2d(1, -1)).norm(), 0.0, 1e-2);
   EXPECT_LE(solution.x[0], 1.0);
   EXPECT_GE(solution.x[1], -1.0);
+}
+
+// A vehicle exactly on top of a neighbour.
+TEST_P(EverySolver, MakesNothingUpWhereTheCostHasAPoleAtTheStart) {
+  Problem problem(Vector2d(0, 0), differentiated<2>(Pole{}));
+  if (const auto why = solver->refuses(problem); why && why->starts_with("needs residuals")) {
+    GTEST_SKIP() << GetParam() << " " << *why;
+  }
+  problem = posed(problem);
+  const Solution solution = solver->solve(problem);
+  if (solution.usable()) {
+    EXPECT_NEAR(solution.x.norm(), 1.0, 1e-2);
+    EXPECT_EQ(solution.cost, problem.evaluate(solution.x.data()));
+  } else {
+    EXPECT_EQ(name_of(solution.status), "diverged");
+  }
 }
 
 TEST_P(EverySolver, LeavesAnUnknownAloneWhoseBoundsAreEqual) {

@@ -13,6 +13,7 @@
 
 #include "shoal/solvers/least_squares.hpp"
 #include "shoal/solvers/registration/registration.hpp"
+#include "tests/support/allocation_count.hpp"
 
 namespace shoal::solvers {
 namespace {
@@ -144,6 +145,14 @@ TEST_P(KnownProblems, CostWhatIsStatedAtEveryMinimiserAndMoreAtTheStart) {
   if (least_constraint(problem, problem.start) >= 0.0) {
     EXPECT_GT(problem.evaluate(problem.start.data()), best + 1e-3 * std::abs(best));
   }
+}
+
+TEST_P(KnownProblems, AreEvaluatedWithoutAllocating) {
+  constexpr int n = Problem::max_dimension;
+  double slope[n], curvature[n * n];
+  const std::size_t before = shoal::tests::allocations();
+  for (int k = 0; k < 10; ++k) problem.evaluate(problem.start.data(), slope, curvature);
+  EXPECT_EQ(shoal::tests::allocations() - before, 0u);
 }
 
 TEST_P(KnownProblems, StartInsideTheBoundsAndEndWhereAllConstraintsHold) {
