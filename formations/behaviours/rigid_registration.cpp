@@ -71,9 +71,10 @@ class RigidRegistration final : public Behaviour {
     if (options_.ownship_weight > 0.0) {
       *end++ = {plan.slot(seen.own_slot), Eigen::Vector2d::Zero(), options_.ownship_weight};
     }
+    const Weights weights = options_;  // a copy that no pair can alias stays in registers
     for (const Neighbour& n : seen.neighbours) {
-      if (n.slot == anonymous || !options_.in_range(n.position)) continue;
-      *end++ = {plan.slot(n.slot), n.position, options_.weight(n.position, n.age_s)};
+      if (n.slot == anonymous || !weights.in_range(n.position)) continue;
+      *end++ = {plan.slot(n.slot), n.position, weights.weight(n.position, n.age_s)};
     }
     return {storage.data(), end};
   }
