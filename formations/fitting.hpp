@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <string_view>
 
 #include "shoal/core/error.hpp"
 #include "shoal/core/registry.hpp"

@@ -66,7 +66,7 @@ class DifferentiatedBlocks final : public VectorFunction {
     Taylor<N> unknowns[N], y[M];
     for (int i = 0; i < N; ++i) unknowns[i] = Taylor<N>::unknown(x[i], i);
     function_(block, static_cast<const Taylor<N>*>(unknowns), y);
-    for (int k = 0; k < M; ++k) {
+    for (std::ptrdiff_t k = 0; k < M; ++k) {
       values[k] = y[k].value;
       if (jacobian) Eigen::Map<typename Taylor<N>::Gradient>{jacobian + k* N} = y[k].gradient;
       if (hessians) Eigen::Map<typename Taylor<N>::Hessian>{hessians + k* N* N} = y[k].hessian;

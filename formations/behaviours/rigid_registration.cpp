@@ -1,4 +1,5 @@
 #include <memory>
+#include <span>
 #include <vector>
 
 #include "shoal/formations/behaviour.hpp"
@@ -76,9 +77,10 @@ class RigidRegistration final : public Behaviour {
     if (own_counts) {
       *end++ = {plan.slot(seen.own_slot), Eigen::Vector2d::Zero(), options_.ownship_weight};
     }
+    const Weights weights = options_;  // a copy that no pair can alias stays in registers
     for (const Neighbour& n : seen.neighbours) {
-      if (n.slot == anonymous || !options_.in_range(n.position)) continue;
-      *end++ = {plan.slot(n.slot), n.position, options_.weight(n.position, n.age_s)};
+      if (n.slot == anonymous || !weights.in_range(n.position)) continue;
+      *end++ = {plan.slot(n.slot), n.position, weights.weight(n.position, n.age_s)};
     }
     const std::span<const solvers::PointPair> pairs{storage.data(), end};
     return pairs.size() > (own_counts ? 1 : 0) ? pairs : std::span<const solvers::PointPair>{};

@@ -176,8 +176,14 @@ Attempt::Outcome Attempt::residuals(int block, const double* y, double* values, 
       }
     }
     if (!finite || !std::isfinite(squared)) return false;
+    // A loss that is not finite would make Ceres end the process.
+    const LossValue loss = structure.loss_at(squared);
+    if (!std::isfinite(loss.value) || !std::isfinite(loss.slope) ||
+        !std::isfinite(loss.curvature)) {
+      return false;
+    }
     if (block == next_block_) {
-      cost_of_blocks_ += structure.weight(block) * structure.loss_at(squared).value;
+      cost_of_blocks_ += structure.weight(block) * loss.value;
       if (++next_block_ == structure.residuals->blocks()) remember(x, cost_of_blocks_);
     }
     return true;

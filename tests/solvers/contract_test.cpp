@@ -175,6 +175,20 @@ TEST_P(EverySolver, HasNoPointWhereThereIsNoFiniteCost) {
   EXPECT_TRUE(std::isnan(solution.x[0]) && std::isnan(solution.x[1]));
 }
 
+// Ceres ends the process on such a loss where it is told of it.
+TEST_P(EverySolver, DoesNotTakeTheEdgeOfALossForAMinimum) {
+  struct Broken final : Loss {
+    LossValue at(double squared) const override {
+      return squared < 6.0 ? LossValue{nan_value, nan_value, nan_value}
+                           : LossValue{squared, 1.0, 0.0};
+    }
+  };
+  const Problem problem = posed(least_squares_problem(
+      {Vector2d(0, 0)}, {differentiated_blocks<2>(Bowl{}), std::make_shared<Broken>(), {}}));
+  const Solution solution = solver->solve(problem);
+  EXPECT_EQ(name_of(solution.status), "diverged") << solution.backend_says;
+}
+
 TEST_P(EverySolver, LetsTheExceptionOfTheCostThroughUnchanged) {
   try {
     solver->solve(problem_of(ThrowsAway{}));
