@@ -18,8 +18,8 @@ class SumOfLosses final : public Objective {
     constexpr int n_max = Problem::max_dimension;
     double r[most], jacobian[most * n_max], curvatures[most * n_max * n_max];
     const VectorFunction& residuals = *structure_->residuals;
-    const int m = residuals.block_size();
-    const int n = dimension_;
+    const std::ptrdiff_t m = residuals.block_size();
+    const std::ptrdiff_t n = dimension_;
 
     double cost = 0.0;
     Problem::Vector slope = Problem::Vector::Zero(n);
@@ -28,7 +28,7 @@ class SumOfLosses final : public Objective {
       residuals.evaluate(b, x, r, gradient || hessian ? jacobian : nullptr,
                          hessian ? curvatures : nullptr);
       double squared = 0.0;
-      for (int k = 0; k < m; ++k) squared += r[k] * r[k];
+      for (std::ptrdiff_t k = 0; k < m; ++k) squared += r[k] * r[k];
       const LossValue loss = structure_->loss_at(squared);
       const double weight = structure_->weight(b);
       cost += weight * loss.value;
@@ -42,7 +42,7 @@ class SumOfLosses final : public Objective {
       if (!hessian) continue;
       curvature += 2.0 * weight * loss.slope * (J.transpose() * J);
       curvature += 4.0 * weight * loss.curvature * (pull * pull.transpose());
-      for (int k = 0; k < m; ++k) {
+      for (std::ptrdiff_t k = 0; k < m; ++k) {
         curvature += 2.0 * weight * loss.slope * r[k] *
                      Eigen::Map<const Matrix>(curvatures + k * n * n, n, n);
       }

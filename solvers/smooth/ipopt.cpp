@@ -91,7 +91,8 @@ class Posed final : public Ipopt::TNLP {
     if (!at(y, is_new)) return false;
     for (Index k = 0; k < m; ++k) {
       double value = 0.0;
-      if (attempt_.constrain(k, y, value, values + k * n_) != Attempt::Outcome::fine) return false;
+      Number* row_values = values + std::ptrdiff_t{k} * n_;
+      if (attempt_.constrain(k, y, value, row_values) != Attempt::Outcome::fine) return false;
     }
     return true;
   }

@@ -175,7 +175,7 @@ class Run {
                           double* gradients, void* self) {
     Run& run = *static_cast<Run*>(self);
     for (unsigned k = 0; k < count; ++k) {
-      double* gradient = gradients ? gradients + k * unknowns : nullptr;
+      double* gradient = gradients ? gradients + std::size_t{k} * unknowns : nullptr;
       const auto outcome = run.attempt_.constrain(static_cast<int>(k), y, values[k], gradient);
       if (outcome != Attempt::Outcome::fine) values[k] = -run.substitute(outcome, gradient);
       values[k] = -values[k];  // NLopt's constraints are g <= 0
