@@ -92,23 +92,26 @@ Eigen::VectorXd multipliers(const Columns& normals, const Vector& slope) {
   return best;
 }
 
+template <int N>
+using Part = std::conditional_t<N == Eigen::Dynamic, Vector, Eigen::Matrix<double, N, 1>>;
+template <int N>
+using Square = std::conditional_t<N == Eigen::Dynamic, Matrix, Eigen::Matrix<double, N, N>>;
+
 /// Whether Newton's step is short, and nothing leads down from here. Directions without a bend have
 /// no such step: there the slope must be negligible.
 template <int N>
-bool lowest_around(const Vector& slope, const Matrix& curvature, double longest, double steepest) {
+bool lowest_around(const Part<N>& slope, const Square<N>& curvature, double longest,
+                   double steepest) {
   constexpr double flat = 1e-6;
   constexpr double rounding = 1e-10;
-  using Part = std::conditional_t<N == Eigen::Dynamic, Vector, Eigen::Matrix<double, N, 1>>;
-  using Square = std::conditional_t<N == Eigen::Dynamic, Matrix, Eigen::Matrix<double, N, N>>;
-  const Square bend = curvature;
-  const Eigen::LLT<Square> factor(bend);  // the usual case, and fast
+  const Eigen::LLT<Square<N>> factor(curvature);  // the usual case, and fast
   if (factor.info() == Eigen::Success) {
-    const Part step = factor.solve(Part(slope));
+    const Part<N> step = factor.solve(slope);
     if (step.norm() <= longest) return true;
   }
-  const Eigen::SelfAdjointEigenSolver<Square> eigen(bend);
-  const Part bends = eigen.eigenvalues();
-  const Part along = eigen.eigenvectors().transpose() * slope;
+  const Eigen::SelfAdjointEigenSolver<Square<N>> eigen(curvature);
+  const Part<N>& bends = eigen.eigenvalues();
+  const Part<N> along = eigen.eigenvectors().transpose() * slope;
   const double largest = bends.cwiseAbs().maxCoeff();
   double squared = 0.0;
   for (Eigen::Index i = 0; i < bends.size(); ++i) {

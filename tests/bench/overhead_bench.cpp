@@ -7,6 +7,7 @@
 #include "shoal/solvers/autodiff.hpp"
 #include "shoal/solvers/least_squares.hpp"
 #include "shoal/solvers/solver.hpp"
+#include "tests/bench/two_neighbours.hpp"
 
 namespace shoal::solvers {
 namespace {
@@ -16,25 +17,8 @@ using Eigen::Vector2d;
 constexpr double x_tolerance_m = 1e-4;
 constexpr int max_evaluations = 200;
 
-// Rypkema 2015, eq. 3.4-3.7 with the neighbours of fig. 3.7.
-struct TwoNeighbours {
-  template <class T>
-  T operator()(const T* p) const {
-    using std::sqrt;
-    const double s = 300.0;
-    T cost(0.0);
-    for (const Vector2d& n : {Vector2d(-280, -81), Vector2d(-25, -193)}) {
-      const T dx = p[0] - n.x(), dy = p[1] - n.y();
-      const T squared = dx * dx + dy * dy;
-      cost = cost + 0.5 * s * s * s / squared + sqrt(squared) - 3.0 * s;
-    }
-    const T dx = p[0] + 152.5, dy = p[1] + 137.0;
-    return cost + 1e-5 * (dx * dx + dy * dy);
-  }
-};
-
 Problem two_neighbours() {
-  return Problem(Vector2d(0, 0), differentiated<2>(TwoNeighbours{}));
+  return Problem(Vector2d(0, 0), differentiated<2>(bench::TwoNeighbours{}));
 }
 
 /// A place among twelve that neighbours imply.

@@ -12,6 +12,7 @@
 #include "shoal/solvers/matching/rotation_search.hpp"
 #include "shoal/solvers/registration/registration.hpp"
 #include "shoal/solvers/solver.hpp"
+#include "tests/bench/two_neighbours.hpp"
 
 namespace shoal::solvers {
 namespace {
@@ -173,26 +174,9 @@ BENCHMARK_CAPTURE(sampled, near, true, 1.0)->Apply(sampled_cases);
 BENCHMARK_CAPTURE(sampled, random_light_ownship, false, 0.1)->Apply(sampled_cases);
 BENCHMARK_CAPTURE(sampled, near_light_ownship, true, 0.1)->Apply(sampled_cases);
 
-// Rypkema 2015, eq. 3.4-3.7.
-struct TwoNeighbours {
-  template <class T>
-  T operator()(const T* p) const {
-    using std::sqrt;
-    const double s = 300.0;
-    T cost(0.0);
-    for (const Vector2d& n : {Vector2d(-280, -81), Vector2d(-25, -193)}) {
-      const T dx = p[0] - n.x(), dy = p[1] - n.y();
-      const T squared = dx * dx + dy * dy;
-      cost = cost + 0.5 * s * s * s / squared + sqrt(squared) - 3.0 * s;
-    }
-    const T dx = p[0] + 152.5, dy = p[1] + 137.0;
-    return cost + 1e-5 * (dx * dx + dy * dy);
-  }
-};
-
 void smooth(benchmark::State& state, const std::string& name) {
   const auto solver = Registry<Solver>::instance().make(name, Setting{}, "solver." + name);
-  const Problem problem(Vector2d(0, 0), differentiated<2>(TwoNeighbours{}));
+  const Problem problem(Vector2d(0, 0), differentiated<2>(bench::TwoNeighbours{}));
   int evaluations = 0;
   for (auto _ : state) {
     const Solution solution = solver->solve(problem);
