@@ -176,13 +176,10 @@ Attempt::Outcome Attempt::residuals(int block, const double* y, double* values, 
       }
     }
     if (!finite || !std::isfinite(squared)) return false;
-    // A loss that is not finite would make Ceres end the process.
-    const LossValue loss = structure.loss_at(squared);
-    if (!std::isfinite(loss.value) || !std::isfinite(loss.slope) ||
-        !std::isfinite(loss.curvature)) {
-      return false;
-    }
-    if (block == next_block_) {
+    if (block == next_block_) {  // seen for the first time at this point
+      const LossValue loss = structure.loss_at(squared);
+      // A loss that is not finite would make Ceres end the process.
+      if (!std::isfinite(loss.value + loss.slope + loss.curvature)) return false;
       cost_of_blocks_ += structure.weight(block) * loss.value;
       if (++next_block_ == structure.residuals->blocks()) remember(x, cost_of_blocks_);
     }
