@@ -56,7 +56,9 @@ TEST(Multistart, TakesAnySolverAndItsOptions) {
                            ->solve(himmelblau());
   EXPECT_LE(few.evaluations, 3 * 32);
   EXPECT_EQ(multistart({{"solver.kind", "nlopt.slsqp"}})->solve(himmelblau()).distinct_minima, 4);
-  EXPECT_NE(multistart({{"solver.kind", "ipopt"}})->one_at_a_time(), std::nullopt);
+  if (Registry<Solver>::instance().find("ipopt")) {  // which may be left out
+    EXPECT_NE(multistart({{"solver.kind", "ipopt"}})->one_at_a_time(), std::nullopt);
+  }
 }
 
 TEST(Multistart, MovesItsStartsWithTheSeed) {
