@@ -37,7 +37,7 @@ const std::array counterparts{
     Counterpart{Operation::hyperbolic_tangent, [](const ex& x) -> ex { return tanh(x); }, "tanh"}};
 
 bool is_small_whole(double x) {
-  return x == std::floor(x) && std::abs(x) <= 64.0;
+  return x == std::floor(x) && std::abs(x) <= largest_whole_power;
 }
 
 /// Translates trees to GiNaC's expressions, and these to steps.

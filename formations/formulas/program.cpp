@@ -207,12 +207,11 @@ ProgramBuilder::Operand ProgramBuilder::step(Operation operation, Operand a, Ope
 }
 
 ProgramBuilder::Operand ProgramBuilder::power(Operand base, double exponent) {
-  constexpr double largest = 64.0;
   if (exponent == 0.0) return constant(1.0);
   if (exponent == 1.0) return base;
   if (exponent == 0.5) return step(Operation::square_root, base);
   if (exponent < 0.0) return step(Operation::divide, constant(1.0), power(base, -exponent));
-  if (exponent != std::floor(exponent) || exponent > largest) {
+  if (exponent != std::floor(exponent) || exponent > largest_whole_power) {
     return step(Operation::power, base, constant(exponent));
   }
   const bool odd = std::fmod(exponent, 2.0) != 0.0;

@@ -50,6 +50,9 @@ class Program {
   std::array<std::size_t, 3> results_{};  // registers of value, slope, curvature
 };
 
+/// Whole exponents up to this size become multiplications, and are exact for GiNaC.
+inline constexpr double largest_whole_power = 64.0;
+
 /// Collects the steps of a program; the same step is taken once only.
 class ProgramBuilder {
  public:
@@ -61,7 +64,6 @@ class ProgramBuilder {
   Operand constant(double value);
   /// Throws InputError when the program grows out of bounds.
   Operand step(Operation operation, Operand a, Operand b = distance);
-  /// Whole exponents of moderate size become multiplications.
   Operand power(Operand base, double exponent);
   /// Appends a formula as it was written; returns the operand that each node has become (numbers
   /// that are exponents only are none).

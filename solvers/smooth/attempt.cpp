@@ -149,9 +149,8 @@ Attempt::Outcome Attempt::constrain(int k, const double* y, double& value, doubl
   });
 }
 
-Attempt::Outcome Attempt::begin_residuals(const double* y) {
+Attempt::Outcome Attempt::begin_residuals() {
   if (!may_go_on()) return Outcome::stop;
-  place(y);
   cost_of_blocks_ = 0.0;
   next_block_ = 0;
   return Outcome::fine;

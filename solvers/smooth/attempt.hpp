@@ -49,8 +49,8 @@ class Attempt {
                     double* hessian = nullptr);
 
   /// For solvers of least squares, which ask for residuals instead of costs: begins an evaluation
-  /// at y. The cost follows when all blocks have been asked for once, in their order.
-  Outcome begin_residuals(const double* y);
+  /// at a new point. Its cost follows when all blocks were asked for once, in their order.
+  Outcome begin_residuals();
 
   /// One block of the residuals at y, with its Jacobian (row-major) where that is not null.
   Outcome residuals(int block, const double* y, double* values, double* jacobian);

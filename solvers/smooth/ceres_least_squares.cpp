@@ -53,15 +53,14 @@ class WeightedLoss final : public ceres::LossFunction {
 /// Sees every point that Ceres tries: for the count, the budget and the best point.
 class Trials final : public ceres::EvaluationCallback {
  public:
-  Trials(Attempt& attempt, const double* y) : attempt_(attempt), y_(y) {}
+  explicit Trials(Attempt& attempt) : attempt_(attempt) {}
 
   void PrepareForEvaluation(bool, bool new_point) override {
-    if (new_point) attempt_.begin_residuals(y_);
+    if (new_point) attempt_.begin_residuals();
   }
 
  private:
   Attempt& attempt_;
-  const double* y_;
 };
 
 class ShortStep final : public ceres::IterationCallback {
@@ -91,7 +90,7 @@ class TrustRegion final : public Solver {
 
     const LeastSquares& structure = *problem.least_squares;
     Problem::Vector y = attempt.start();
-    Trials trials(attempt, y.data());
+    Trials trials(attempt);
     ceres::Problem::Options problem_options;
     problem_options.evaluation_callback = &trials;
     ceres::Problem posed(problem_options);

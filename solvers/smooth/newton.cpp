@@ -117,7 +117,7 @@ class Descent {
       const double length = step.norm();
       const double expected = -(here.slope.dot(step) + 0.5 * step.dot(here.curvature * step));
       if (length <= options_.x_tolerance_m && length < 0.9 * radius && !attempt_.bounded()) {
-        // A whole Newton step, and the curvature is positive: a minimum is as near as asked.
+        // A whole Newton step, and nothing leads down: a minimum is as near as asked.
         return attempt_.finish_converged("Newton's step is within the tolerance");
       }
       if (!(expected > 0.0)) {  // bounds cut the step to one that leads nowhere
@@ -176,7 +176,7 @@ class Newton final : public Solver {
   explicit Newton(const NewtonOptions& options) : options_(options) {}
 
   Solution solve(const Problem& problem) const override {
-    if (const auto why = refuses(problem)) return refused(problem);
+    if (refuses(problem)) return refused(problem);
     Attempt attempt(problem, options_);
     if (!attempt.open()) return attempt.finish(0, "");
     switch (attempt.unknowns()) {

@@ -212,7 +212,9 @@ class Nlopt final : public Solver {
 
   std::optional<std::string> refuses(const Problem& problem) const override {
     if (problem.constraints && !algorithm_.takes_constraints) return "takes no constraints";
-    if (algorithm_.global && !problem.lower) return "needs bounds: it searches the whole box";
+    if (algorithm_.global && !(problem.lower && problem.upper)) {
+      return "needs bounds: it searches the whole box";
+    }
     if (algorithm_.global && !(problem.lower->allFinite() && problem.upper->allFinite())) {
       return "needs finite bounds: it searches the whole box";
     }
