@@ -38,6 +38,11 @@ std::string summary_json(const Trial& trial, const std::string& name);
 void write_trial(const Trial& trial, const std::string& name, const std::filesystem::path& folder);
 
 /// Throws SystemError unless files can be written in the folder (which is made if need be).
-void require_writable(const std::filesystem::path& folder);
+/// `remedy` ends the message.
+void require_writable(const std::filesystem::path& folder,
+                      const std::string& remedy = "choose another folder with --out");
+
+/// The same for one file, before the long work that it is meant for.
+void require_writable_file(const std::filesystem::path& file);
 
 }  // namespace shoal::analysis

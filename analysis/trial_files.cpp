@@ -14,20 +14,26 @@ void write_text(const fs::path& file, const std::string& text) {
 
 }  // namespace
 
-void require_writable(const fs::path& folder) {
+void require_writable(const fs::path& folder, const std::string& remedy) {
   std::error_code failed;
   fs::create_directories(folder, failed);
   if (!failed && !fs::is_directory(folder)) {
     failed = std::make_error_code(std::errc::not_a_directory);
   }
   if (failed) {
-    throw SystemError("cannot write into " + folder.string() + ": " + failed.message() +
-                      "; choose another folder with --out");
+    throw SystemError("cannot write into " + folder.string() + ": " + failed.message() + "; " +
+                      remedy);
   }
   // Permissions do not tell all: a file system may be read-only, full, or none that holds files.
   const fs::path probe = folder / ".shoal";
   write_text(probe, "can files be written here?\n");
   fs::remove(probe, failed);
+}
+
+void require_writable_file(const fs::path& file) {
+  if (fs::is_directory(file))
+    throw SystemError("cannot write " + file.string() + ": it is a folder");
+  require_writable(fs::absolute(file).parent_path(), "choose another place for " + file.string());
 }
 
 std::string summary_json(const Trial& trial, const std::string& name) {

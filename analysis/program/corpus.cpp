@@ -38,7 +38,7 @@ analysis::Corpus recorded(const std::string& name, const std::string& behaviour,
 }  // namespace
 
 void corpus(const CorpusArguments& arguments) {
-  analysis::require_writable(std::filesystem::absolute(arguments.file).parent_path());
+  analysis::require_writable_file(arguments.file);
   analysis::Corpus all;
   for (const std::string& scenario : scenarios::library_scenarios()) {
     for (const std::string& behaviour : Registry<formations::Behaviour>::instance().names()) {

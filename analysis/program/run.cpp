@@ -41,7 +41,7 @@ void run(const RunArguments& arguments) {
   analysis::ProblemRecorder recorder;
   analysis::TrialSettings settings{.threads = arguments.threads, .record = true};
   if (!problems.empty()) {
-    analysis::require_writable(std::filesystem::absolute(problems).parent_path());
+    analysis::require_writable_file(arguments.problems);
     settings.behaviour_hook = recorder.hook();
   }
 

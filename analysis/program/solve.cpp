@@ -1,7 +1,5 @@
 #include <fmt/core.h>
 
-#include <filesystem>
-
 #include "commands.hpp"
 #include "shoal/analysis/solver_comparison.hpp"
 #include "shoal/analysis/trial.hpp"
@@ -16,10 +14,9 @@ void solve(const SolveArguments& arguments) {
       .solvers = arguments.solvers, .reference = arguments.reference, .options = {}};
   for (const std::string& set : arguments.sets) scenarios::apply_set(settings.options, set);
   analysis::SolverComparison comparison(settings);
-  if (!arguments.profiles.empty()) {
-    analysis::require_writable(std::filesystem::absolute(arguments.profiles).parent_path());
-  }
-  comparison.run(analysis::read_corpus(arguments.corpus));
+  const analysis::Corpus corpus = analysis::read_corpus(arguments.corpus);
+  if (!arguments.profiles.empty()) analysis::require_writable_file(arguments.profiles);
+  comparison.run(corpus);
   if (comparison.families().empty()) {
     throw InputError("no problem of " + arguments.corpus +
                      " belongs to the family of a solver that was named");

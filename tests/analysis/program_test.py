@@ -386,6 +386,19 @@ class BadSurroundings(Desk):
         self.assert_complains(done, 1, ["cannot write"])
 
 
+    def test_files_that_cannot_be_written_are_refused_before_the_work(self):
+        for arguments in (["corpus", "ok.toml/c.jsonl"],
+                          ["run", "ok.toml", "--record-problems", "ok.toml/c.jsonl"]):
+            self.assert_complains(self.shoal(*arguments), 1,
+                                  ["cannot write into ", "choose another place for ok.toml/c.jsonl"])
+        self.assert_complains(self.shoal("corpus", "."), 1, ["cannot write .: it is a folder"])
+
+    def test_no_folder_is_made_for_profiles_of_a_corpus_that_is_none(self):
+        self.assert_complains(self.shoal("solve", "ok.toml", "--solvers", "newton", "--profiles",
+                                         "new/p.csv"), 2, ["ok.toml:1: "])
+        self.assertFalse((self.desk / "new").exists())
+
+
 class Help(Desk):
     def say(self, *arguments):
         done = self.shoal(*arguments)
