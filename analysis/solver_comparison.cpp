@@ -28,10 +28,9 @@ struct Entrants {
   }
 
   template <class Problem>
-  void meet(const Problem& problem) {
-    for (std::size_t i = 0; i < solvers.size(); ++i) {
-      family.contenders[i].answers.push_back(answered(*solvers[i], problem));
-    }
+  void meet(const Problem& problem, std::size_t turn) {
+    if (turn >= solvers.size()) return;
+    family.contenders[turn].answers.push_back(answered(*solvers[turn], problem));
   }
 };
 
@@ -66,16 +65,23 @@ void require_known(const ComparisonSettings& settings,
 
 }  // namespace
 
-/// Shows each problem to the solvers of its family.
+/// Shows each problem to one solver of its family: the one whose turn it is.
 class SolverComparison::Arena final : public formations::ProblemViewer {
  public:
   explicit Arena(const ComparisonSettings& settings)
       : smooth(settings), registration(settings), matching(settings) {}
 
-  void see(const solvers::Problem& problem) override { smooth.meet(problem); }
-  void see(const solvers::RegistrationProblem& problem) override { registration.meet(problem); }
-  void see(const solvers::MatchingProblem& problem) override { matching.meet(problem); }
+  void see(const solvers::Problem& problem) override { smooth.meet(problem, turn); }
+  void see(const solvers::RegistrationProblem& problem) override {
+    registration.meet(problem, turn);
+  }
+  void see(const solvers::MatchingProblem& problem) override { matching.meet(problem, turn); }
 
+  std::size_t turns() const {
+    return std::max({smooth.solvers.size(), registration.solvers.size(), matching.solvers.size()});
+  }
+
+  std::size_t turn = 0;
   Entrants<solvers::Solver> smooth;
   Entrants<solvers::RegistrationSolver> registration;
   Entrants<solvers::Matcher> matching;
@@ -95,11 +101,15 @@ void SolverComparison::run(const Corpus& corpus) {
   for (const Experiment& experiment : corpus.experiments) {
     behaviours.push_back(experiment.make_behaviour());
   }
-  for (const Situation& situation : corpus.situations) {
-    const formations::Neighbourhood seen{situation.neighbours, situation.own_slot,
-                                         situation.own_position};
-    behaviours[situation.experiment]->pose(seen, corpus.experiments[situation.experiment].plan,
-                                           *arena_);
+  // One solver after another, not problem by problem: a large one would leave the others a cold
+  // cache, and a time that is not theirs.
+  for (arena_->turn = 0; arena_->turn < arena_->turns(); ++arena_->turn) {
+    for (const Situation& situation : corpus.situations) {
+      const formations::Neighbourhood seen{situation.neighbours, situation.own_slot,
+                                           situation.own_position};
+      behaviours[situation.experiment]->pose(seen, corpus.experiments[situation.experiment].plan,
+                                             *arena_);
+    }
   }
 }
 
