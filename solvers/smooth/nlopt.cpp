@@ -1,8 +1,8 @@
 #include <nlopt.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
+#include <type_traits>
 
 #include "shoal/solvers/smooth/attempt.hpp"
 
@@ -11,35 +11,35 @@ namespace {
 
 using Vector = Problem::Vector;
 
+/// For methods that follow the gradient from the start.
 struct LocalOptions : Limits {
-  static constexpr std::int64_t seed = 1;
-  double initial_step_m = 1.0;
-
   static void declare(Options<LocalOptions>& o) { declare_limits(o); }
 };
 
 /// For methods that use no derivatives and probe the surroundings instead.
-struct ProbingOptions : LocalOptions {
+struct ProbingOptions : Limits {
+  double initial_step_m = 1.0;
+
   ProbingOptions() { max_evaluations = 1000; }
 
-  static void declare(Options<ProbingOptions>& o) {
+  static void declare(Options<ProbingOptions>& o) { declare_probing(o); }
+
+  template <class Declared>
+  static void declare_probing(Options<Declared>& o) {
     declare_limits(o);
-    o.number("initial_step_m", &ProbingOptions::initial_step_m, "m", above(0.0), "first step");
+    o.number("initial_step_m", &Declared::initial_step_m, "m", above(0.0), "first step");
   }
 };
 
+/// For methods that search the whole box.
 struct GlobalOptions : GlobalLimits {
-  std::int64_t seed = 1;
   std::int64_t polish_evaluations = 100;
-  double initial_step_m = 1.0;
 
   static void declare(Options<GlobalOptions>& o) { declare_global(o); }
 
   template <class Declared>
   static void declare_global(Options<Declared>& o) {
     declare_limits(o);
-    o.integer("seed", &Declared::seed, "", in(0, 4294967295.0),
-              "of the random numbers that the method draws (if it draws any)");
     o.integer(
         "polish_evaluations", &Declared::polish_evaluations, "", in(0, 1e9),
         "kept of the budget (up to half of it) to go from the best point found to the nearest "
@@ -54,70 +54,52 @@ struct LinkageOptions : GlobalOptions {
   static void declare(Options<LinkageOptions>& o) { declare_global(o); }
 };
 
+/// The same for methods that draw random numbers.
+template <class Drawless>
+struct Drawing : Drawless {
+  std::int64_t seed = 1;
+
+  static void declare(Options<Drawing>& o) {
+    if constexpr (std::is_same_v<Drawless, ProbingOptions>) {
+      Drawless::declare_probing(o);
+    } else {
+      Drawless::declare_global(o);
+    }
+    o.integer("seed", &Drawing::seed, "", in(0, 4294967295.0),
+              "of the random numbers that the method draws");
+  }
+};
+
 struct Algorithm {
   const char* name;
-  nlopt_algorithm id;
-  bool uses_gradient;
-  bool takes_constraints;
-  bool global;
-  bool draws;  // random numbers
-  int least_unknowns;
   const char* summary;
+  nlopt_algorithm id;
+  bool takes_constraints = false;
+  int least_unknowns = 1;
 };
 
-constexpr std::array algorithms{
-    Algorithm{"nlopt.lbfgs", NLOPT_LD_LBFGS, true, false, false, false, 1,
-              "NLopt: limited-memory BFGS"},
-    Algorithm{"nlopt.slsqp", NLOPT_LD_SLSQP, true, true, false, false, 1,
-              "NLopt: sequential quadratic programming"},
-    Algorithm{"nlopt.mma", NLOPT_LD_MMA, true, true, false, false, 1,
-              "NLopt: method of moving asymptotes"},
-    Algorithm{"nlopt.ccsaq", NLOPT_LD_CCSAQ, true, true, false, false, 1,
-              "NLopt: conservative convex separable quadratic approximations"},
-    Algorithm{"nlopt.tnewton", NLOPT_LD_TNEWTON, true, false, false, false, 1,
-              "NLopt: truncated Newton"},
-    Algorithm{"nlopt.var2", NLOPT_LD_VAR2, true, false, false, false, 1,
-              "NLopt: variable metric, rank 2"},
-    Algorithm{"nlopt.bobyqa", NLOPT_LN_BOBYQA, false, false, false, false, 2,
-              "NLopt: quadratic models without derivatives (used by Rypkema 2015)"},
-    Algorithm{"nlopt.cobyla", NLOPT_LN_COBYLA, false, true, false, false, 1,
-              "NLopt: linear models without derivatives"},
-    Algorithm{"nlopt.neldermead", NLOPT_LN_NELDERMEAD, false, false, false, false, 1,
-              "NLopt: Nelder-Mead simplex"},
-    Algorithm{"nlopt.sbplx", NLOPT_LN_SBPLX, false, false, false, false, 1,
-              "NLopt: Subplex, simplices on subspaces"},
-    Algorithm{"nlopt.praxis", NLOPT_LN_PRAXIS, false, false, false, true, 1,
-              "NLopt: principal axes, without derivatives"},
-    Algorithm{"nlopt.direct_l", NLOPT_GN_DIRECT_L, false, false, true, false, 1,
-              "NLopt: dividing rectangles, in a box"},
-    Algorithm{"nlopt.crs2", NLOPT_GN_CRS2_LM, false, false, true, true, 1,
-              "NLopt: controlled random search with local mutation, in a box"},
-    Algorithm{"nlopt.isres", NLOPT_GN_ISRES, false, true, true, true, 1,
-              "NLopt: evolution strategy with stochastic ranking, in a box"},
-    Algorithm{"nlopt.mlsl", NLOPT_GD_MLSL_LDS, true, false, true, true, 1,
-              "NLopt: L-BFGS from low-discrepancy starts, in a box"},
-    Algorithm{"nlopt.stogo", NLOPT_GD_STOGO, true, false, true, false, 1,
-              "NLopt: branch and bound with local searches, in a box"},
-};
+template <class SomeOptions>
+constexpr bool searches_a_box = std::is_base_of_v<GlobalOptions, SomeOptions>;
 
 /// One solve: NLopt on one side, the attempt on the other.
+template <class SomeOptions>
 class Run {
  public:
-  Run(Attempt& attempt, const Algorithm& algorithm) : attempt_(attempt), algorithm_(algorithm) {}
+  Run(Attempt& attempt, const Algorithm& algorithm, const SomeOptions& options)
+      : attempt_(attempt), algorithm_(algorithm), options_(options) {}
 
-  template <class SomeOptions>
-  Solution solve(const SomeOptions& options) {
-    std::int64_t kept = 0;
-    if constexpr (requires { options.polish_evaluations; }) {
-      kept = std::min(options.polish_evaluations, options.max_evaluations / 2);
-    }
-    if (algorithm_.global) {  // which need not look at the start by themselves
-      double cost_at_start = 0.0;
+  Solution solve() {
+    nlopt_result result{};
+    if constexpr (searches_a_box<SomeOptions>) {
+      double cost_at_start = 0.0;  // at which these methods need not look by themselves
       attempt_.evaluate(attempt_.start().data(), cost_at_start);
-    }
-    nlopt_result result = minimise(algorithm_.id, attempt_.start(), options, kept);
-    if (kept > 0 && attempt_.best().allFinite()) {
-      result = minimise(NLOPT_LD_SLSQP, attempt_.best(), options, 0);
+      const std::int64_t kept = std::min(options_.polish_evaluations, options_.max_evaluations / 2);
+      result = minimise(algorithm_.id, attempt_.start(), options_.max_evaluations - kept);
+      if (kept > 0 && attempt_.best().allFinite()) {
+        result = minimise(NLOPT_LD_SLSQP, attempt_.best(), options_.max_evaluations);
+      }
+    } else {
+      result = minimise(algorithm_.id, attempt_.start(), options_.max_evaluations);
     }
     const char* says = nlopt_result_to_string(result);
     return attempt_.finish(static_cast<int>(result), says ? says : "");
@@ -126,11 +108,8 @@ class Run {
  private:
   using Handle = std::unique_ptr<nlopt_opt_s, decltype(&nlopt_destroy)>;
 
-  template <class SomeOptions>
-  nlopt_result minimise(nlopt_algorithm id, Vector x, const SomeOptions& options,
-                        std::int64_t kept) {
-    const std::int64_t evaluations = options.max_evaluations - kept;
-    const Handle owner = made(id, options, evaluations);
+  nlopt_result minimise(nlopt_algorithm id, Vector x, std::int64_t evaluations) {
+    const Handle owner = made(id, evaluations);
     backend_ = owner.get();
     nlopt_set_min_objective(backend_, &Run::cost, this);
     if (attempt_.bounded()) {
@@ -142,23 +121,24 @@ class Run {
                                        &Run::constraints, this, nullptr);
     }
     if (id == NLOPT_GD_MLSL_LDS) {
-      const Handle local = made(NLOPT_LD_LBFGS, options, evaluations);
+      const Handle local = made(NLOPT_LD_LBFGS, evaluations);
       nlopt_set_local_optimizer(backend_, local.get());
     }
     // What is drawn belongs to this solve: the same problem shall give the same answer.
-    if (algorithm_.draws) nlopt_srand(static_cast<unsigned long>(options.seed));
+    if constexpr (requires { options_.seed; }) {
+      nlopt_srand(static_cast<unsigned long>(options_.seed));
+    }
     double lowest = 0.0;
     return nlopt_optimize(backend_, x.data(), &lowest);
   }
 
-  template <class SomeOptions>
-  Handle made(nlopt_algorithm id, const SomeOptions& options, std::int64_t evaluations) const {
+  Handle made(nlopt_algorithm id, std::int64_t evaluations) const {
     Handle handle(nlopt_create(id, static_cast<unsigned>(attempt_.unknowns())), &nlopt_destroy);
     if (!handle) throw std::bad_alloc();
     nlopt_set_maxeval(handle.get(), static_cast<int>(evaluations));
-    nlopt_set_xtol_abs1(handle.get(), options.x_tolerance_m);
-    if (!algorithm_.uses_gradient && !algorithm_.global) {
-      nlopt_set_initial_step1(handle.get(), options.initial_step_m);
+    nlopt_set_xtol_abs1(handle.get(), options_.x_tolerance_m);
+    if constexpr (requires { options_.initial_step_m; }) {
+      nlopt_set_initial_step1(handle.get(), options_.initial_step_m);
     }
     return handle;
   }
@@ -194,6 +174,7 @@ class Run {
 
   Attempt& attempt_;
   const Algorithm& algorithm_;
+  const SomeOptions& options_;
   nlopt_opt backend_ = nullptr;
 };
 
@@ -207,15 +188,16 @@ class Nlopt final : public Solver {
     if (refuses(problem)) return refused(problem);
     Attempt attempt(problem, options_);
     if (!attempt.open()) return attempt.finish(0, "");
-    return Run(attempt, algorithm_).solve(options_);
+    return Run<SomeOptions>(attempt, algorithm_, options_).solve();
   }
 
   std::optional<std::string> refuses(const Problem& problem) const override {
     if (problem.constraints && !algorithm_.takes_constraints) return "takes no constraints";
-    if (algorithm_.global && !(problem.lower && problem.upper)) {
+    if (searches_a_box<SomeOptions> && !(problem.lower && problem.upper)) {
       return "needs bounds: it searches the whole box";
     }
-    if (algorithm_.global && !(problem.lower->allFinite() && problem.upper->allFinite())) {
+    if (searches_a_box<SomeOptions> &&
+        !(problem.lower->allFinite() && problem.upper->allFinite())) {
       return "needs finite bounds: it searches the whole box";
     }
     const int unknowns = free_unknowns(problem);
@@ -233,30 +215,73 @@ class Nlopt final : public Solver {
     return static_cast<int>((problem.lower->array() != problem.upper->array()).count());
   }
 
-  const Algorithm& algorithm_;
+  Algorithm algorithm_;
   SomeOptions options_;
 };
 
 template <class SomeOptions>
 void enrol(const Algorithm& algorithm) {
   Enrol<Solver, SomeOptions>(algorithm.name, algorithm.summary,
-                             [&algorithm](const SomeOptions& options) {
+                             [algorithm](const SomeOptions& options) {
                                return std::make_unique<Nlopt<SomeOptions>>(algorithm, options);
                              });
 }
 
 const bool enrolled = [] {
-  for (const Algorithm& algorithm : algorithms) {
-    if (algorithm.id == NLOPT_GD_MLSL_LDS) {
-      enrol<LinkageOptions>(algorithm);
-    } else if (algorithm.global) {
-      enrol<GlobalOptions>(algorithm);
-    } else if (algorithm.uses_gradient) {
-      enrol<LocalOptions>(algorithm);
-    } else {
-      enrol<ProbingOptions>(algorithm);
-    }
-  }
+  enrol<LocalOptions>(
+      {.name = "nlopt.lbfgs", .summary = "NLopt: limited-memory BFGS", .id = NLOPT_LD_LBFGS});
+  enrol<LocalOptions>({.name = "nlopt.slsqp",
+                       .summary = "NLopt: sequential quadratic programming",
+                       .id = NLOPT_LD_SLSQP,
+                       .takes_constraints = true});
+  enrol<LocalOptions>({.name = "nlopt.mma",
+                       .summary = "NLopt: method of moving asymptotes",
+                       .id = NLOPT_LD_MMA,
+                       .takes_constraints = true});
+  enrol<LocalOptions>({.name = "nlopt.ccsaq",
+                       .summary = "NLopt: conservative convex separable quadratic approximations",
+                       .id = NLOPT_LD_CCSAQ,
+                       .takes_constraints = true});
+  enrol<LocalOptions>(
+      {.name = "nlopt.tnewton", .summary = "NLopt: truncated Newton", .id = NLOPT_LD_TNEWTON});
+  enrol<LocalOptions>(
+      {.name = "nlopt.var2", .summary = "NLopt: variable metric, rank 2", .id = NLOPT_LD_VAR2});
+  enrol<ProbingOptions>(
+      {.name = "nlopt.bobyqa",
+       .summary = "NLopt: quadratic models without derivatives (used by Rypkema 2015)",
+       .id = NLOPT_LN_BOBYQA,
+       .least_unknowns = 2});
+  enrol<ProbingOptions>({.name = "nlopt.cobyla",
+                         .summary = "NLopt: linear models without derivatives",
+                         .id = NLOPT_LN_COBYLA,
+                         .takes_constraints = true});
+  enrol<ProbingOptions>({.name = "nlopt.neldermead",
+                         .summary = "NLopt: Nelder-Mead simplex",
+                         .id = NLOPT_LN_NELDERMEAD});
+  enrol<ProbingOptions>({.name = "nlopt.sbplx",
+                         .summary = "NLopt: Subplex, simplices on subspaces",
+                         .id = NLOPT_LN_SBPLX});
+  enrol<Drawing<ProbingOptions>>({.name = "nlopt.praxis",
+                                  .summary = "NLopt: principal axes, without derivatives",
+                                  .id = NLOPT_LN_PRAXIS});
+  enrol<GlobalOptions>({.name = "nlopt.direct_l",
+                        .summary = "NLopt: dividing rectangles, in a box",
+                        .id = NLOPT_GN_DIRECT_L});
+  enrol<Drawing<GlobalOptions>>(
+      {.name = "nlopt.crs2",
+       .summary = "NLopt: controlled random search with local mutation, in a box",
+       .id = NLOPT_GN_CRS2_LM});
+  enrol<Drawing<GlobalOptions>>(
+      {.name = "nlopt.isres",
+       .summary = "NLopt: evolution strategy with stochastic ranking, in a box",
+       .id = NLOPT_GN_ISRES,
+       .takes_constraints = true});
+  enrol<LinkageOptions>({.name = "nlopt.mlsl",
+                         .summary = "NLopt: L-BFGS from low-discrepancy starts, in a box",
+                         .id = NLOPT_GD_MLSL_LDS});
+  enrol<GlobalOptions>({.name = "nlopt.stogo",
+                        .summary = "NLopt: branch and bound with local searches, in a box",
+                        .id = NLOPT_GD_STOGO});
   return true;
 }();
 

@@ -402,6 +402,30 @@ TEST_P(EverySolver, ReturnsFromRoughAndHugeAndTinyCosts) {
   }
 }
 
+// A seed that changes nothing would be an option that does nothing.
+TEST(SolversThatDraw, DrawOtherNumbersWithAnotherSeed) {
+  const auto& registry = Registry<Solver>::instance();
+  std::vector<std::string> drawing;
+  for (const MemberInfo& member : registry.members()) {
+    if (!member.schema().find("seed")) continue;
+    drawing.push_back(member.name);
+    Problem problem(Vector2d(5, 5), differentiated<2>(Rough{1.0, 0.5, 1}));
+    problem.lower = Vector2d(-10, -10);
+    problem.upper = Vector2d(9, 9);
+    const auto evaluations = [&](std::int64_t seed) {
+      Setting options;
+      options.at_or_new("seed").value = seed;
+      return registry.make(member.name, options, member.name)->solve(problem).evaluations;
+    };
+    EXPECT_EQ(evaluations(0), evaluations(0)) << member.name;
+    bool any_other = false;
+    for (std::int64_t seed = 1; seed < 6; ++seed) any_other |= evaluations(seed) != evaluations(0);
+    EXPECT_TRUE(any_other) << member.name;
+  }
+  EXPECT_EQ(drawing,
+            (std::vector<std::string>{"multistart", "nlopt.crs2", "nlopt.isres", "nlopt.praxis"}));
+}
+
 INSTANTIATE_TEST_SUITE_P(Solvers, EverySolver,
                          testing::ValuesIn(Registry<Solver>::instance().names()),
                          [](const auto& tested) { return tests::test_name(tested.param); });
