@@ -88,20 +88,35 @@ Attempt::Outcome Attempt::guarded(Function function) {
   return Outcome::not_finite;
 }
 
+template <class Function>
+bool Attempt::reduced(const Function& function, const double* y, double& value, double* gradient,
+                      double* hessian) {
+  if (all_free_) {
+    value = function(y, gradient, hessian);
+  } else {
+    double slope[n_max], curvature[n_max * n_max];
+    const int n = problem_.dimension();
+    value = function(place(y), gradient ? slope : nullptr, hessian ? curvature : nullptr);
+    for (int k = 0; gradient && k < free_count_; ++k) gradient[k] = slope[free_[k]];
+    for (int k = 0; hessian && k < free_count_ * free_count_; ++k) {
+      hessian[k] = curvature[free_[k / free_count_] * n + free_[k % free_count_]];
+    }
+  }
+  bool finite = std::isfinite(value);
+  for (int k = 0; gradient && k < free_count_; ++k) finite &= std::isfinite(gradient[k]);
+  for (int k = 0; hessian && k < free_count_ * free_count_; ++k)
+    finite &= std::isfinite(hessian[k]);
+  return finite;
+}
+
 Attempt::Outcome Attempt::evaluate(const double* y, double& cost, double* gradient,
                                    double* hessian) {
   if (!may_go_on()) return Outcome::stop;
   return guarded([&] {
-    bool finite = true;
-    if (all_free_) {
-      cost = problem_.evaluate(y, gradient, hessian);
-      finite = std::isfinite(cost);
-      for (int k = 0; hessian && k < free_count_ * free_count_; ++k) {
-        finite &= std::isfinite(hessian[k]);
-      }
-    } else {
-      finite = evaluate_some_free(y, cost, gradient, hessian);
-    }
+    const auto objective = [this](const double* x, double* slope, double* curvature) {
+      return problem_.evaluate(x, slope, curvature);
+    };
+    bool finite = reduced(objective, y, cost, gradient, hessian);
     if (gradient) {
       double squared = 0.0;
       for (int k = 0; k < free_count_; ++k) squared += gradient[k] * gradient[k];
@@ -115,38 +130,15 @@ Attempt::Outcome Attempt::evaluate(const double* y, double& cost, double* gradie
   });
 }
 
-bool Attempt::evaluate_some_free(const double* y, double& cost, double* gradient, double* hessian) {
-  double slope[n_max], curvature[n_max * n_max];
-  const int n = problem_.dimension();
-  cost = problem_.evaluate(place(y), gradient ? slope : nullptr, hessian ? curvature : nullptr);
-  bool finite = std::isfinite(cost);
-  for (int k = 0; gradient && k < free_count_; ++k) gradient[k] = slope[free_[k]];
-  for (int k = 0; hessian && k < free_count_ * free_count_; ++k) {
-    hessian[k] = curvature[free_[k / free_count_] * n + free_[k % free_count_]];
-    finite &= std::isfinite(hessian[k]);
-  }
-  return finite;
-}
-
 Attempt::Outcome Attempt::constrain(int k, const double* y, double& value, double* gradient,
                                     double* hessian) {
   if (stopped_) return Outcome::stop;
-  return guarded([&] {
-    const int n = problem_.dimension();
-    double slope[n_max], curvature[n_max * n_max];
-    problem_.constraints->evaluate(k, place(y), &value, gradient ? slope : nullptr,
-                                   hessian ? curvature : nullptr);
-    bool finite = std::isfinite(value);
-    for (int i = 0; gradient && i < free_count_; ++i) {
-      gradient[i] = slope[free_[i]];
-      finite = finite && std::isfinite(gradient[i]);
-    }
-    for (int i = 0; hessian && i < free_count_ * free_count_; ++i) {
-      hessian[i] = curvature[free_[i / free_count_] * n + free_[i % free_count_]];
-      finite = finite && std::isfinite(hessian[i]);
-    }
-    return finite;
-  });
+  const auto constraint = [&](const double* x, double* slope, double* curvature) {
+    double at_x = 0.0;
+    problem_.constraints->evaluate(k, x, &at_x, slope, curvature);
+    return at_x;
+  };
+  return guarded([&] { return reduced(constraint, y, value, gradient, hessian); });
 }
 
 Attempt::Outcome Attempt::begin_residuals() {

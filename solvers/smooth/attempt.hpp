@@ -81,7 +81,10 @@ class Attempt {
   Problem::Vector free_part(const Problem::Vector& all) const;
   const double* place(const double* y);  ///< all unknowns at y
   bool may_go_on();                      ///< counts an evaluation, or ends the attempt
-  bool evaluate_some_free(const double* y, double& cost, double* gradient, double* hessian);
+  /// What a function of all unknowns gives at y, in the free ones; whether that is finite.
+  template <class Function>
+  bool reduced(const Function& function, const double* y, double& value, double* gradient,
+               double* hessian);
   void remember(const double* x, double cost);
   bool at_minimum() const;
   Status judge() const;

@@ -1,8 +1,14 @@
+#include <ceres/cost_function.h>
+#include <ceres/evaluation_callback.h>
 #include <ceres/first_order_function.h>
 #include <ceres/gradient_problem.h>
 #include <ceres/gradient_problem_solver.h>
+#include <ceres/loss_function.h>
+#include <ceres/problem.h>
+#include <ceres/solver.h>
 #include <glog/logging.h>
 
+#include "shoal/solvers/least_squares.hpp"
 #include "shoal/solvers/smooth/attempt.hpp"
 
 namespace shoal::solvers {
@@ -12,19 +18,6 @@ struct CeresOptions : Limits {
   static void declare(Options<CeresOptions>& o) { declare_limits(o); }
 };
 
-class Cost final : public ceres::FirstOrderFunction {
- public:
-  explicit Cost(Attempt& attempt) : attempt_(attempt) {}
-
-  int NumParameters() const override { return attempt_.unknowns(); }
-  bool Evaluate(const double* y, double* cost, double* gradient) const override {
-    return attempt_.evaluate(y, *cost, gradient) == Attempt::Outcome::fine;
-  }
-
- private:
-  Attempt& attempt_;
-};
-
 /// Ceres' own tolerance is relative to |x|, which is about zero at a vehicle's target.
 class ShortStep final : public ceres::IterationCallback {
  public:
@@ -32,9 +25,35 @@ class ShortStep final : public ceres::IterationCallback {
 
   ceres::CallbackReturnType operator()(const ceres::IterationSummary& iteration) override {
     if (attempt_.must_stop()) return ceres::SOLVER_ABORT;
-    if (iteration.iteration == 0) return ceres::SOLVER_CONTINUE;
+    if (iteration.iteration == 0 || !iteration.step_is_successful) return ceres::SOLVER_CONTINUE;
     return attempt_.may_end_after(iteration.step_norm) ? ceres::SOLVER_TERMINATE_SUCCESSFULLY
                                                        : ceres::SOLVER_CONTINUE;
+  }
+
+ private:
+  Attempt& attempt_;
+};
+
+/// Leaves the end to the attempt.
+template <class BackendOptions>
+void hand_over(ShortStep& short_step, const Limits& limits, BackendOptions& options) {
+  options.logging_type = ceres::SILENT;
+  options.max_num_iterations = static_cast<int>(limits.max_evaluations);
+  options.function_tolerance = 0.0;
+  options.gradient_tolerance = 0.0;
+  options.parameter_tolerance = 0.0;
+  options.callbacks.push_back(&short_step);
+}
+
+// Any smooth cost --------------------------------------------------------------------------------
+
+class Cost final : public ceres::FirstOrderFunction {
+ public:
+  explicit Cost(Attempt& attempt) : attempt_(attempt) {}
+
+  int NumParameters() const override { return attempt_.unknowns(); }
+  bool Evaluate(const double* y, double* cost, double* gradient) const override {
+    return attempt_.evaluate(y, *cost, gradient) == Attempt::Outcome::fine;
   }
 
  private:
@@ -55,12 +74,7 @@ class LineSearch final : public Solver {
     ShortStep short_step(attempt);
     ceres::GradientProblemSolver::Options options;
     options.line_search_direction_type = direction;
-    options.logging_type = ceres::SILENT;
-    options.max_num_iterations = static_cast<int>(options_.max_evaluations);
-    options.function_tolerance = 0.0;
-    options.gradient_tolerance = 0.0;
-    options.parameter_tolerance = 0.0;
-    options.callbacks.push_back(&short_step);
+    hand_over(short_step, options_, options);
     ceres::GradientProblemSolver::Summary summary;
     Problem::Vector y = attempt.start();
     ceres::Solve(options, posed, y.data(), &summary);
@@ -78,13 +92,110 @@ class LineSearch final : public Solver {
   CeresOptions options_;
 };
 
-template <ceres::LineSearchDirectionType direction>
-const auto made =
-    [](const CeresOptions& options) { return std::make_unique<LineSearch<direction>>(options); };
+// Sums of squares --------------------------------------------------------------------------------
+
+class Block final : public ceres::CostFunction {
+ public:
+  Block(Attempt& attempt, int block, int size) : attempt_(attempt), block_(block) {
+    set_num_residuals(size);
+    mutable_parameter_block_sizes()->push_back(attempt.unknowns());
+  }
+
+  bool Evaluate(double const* const* y, double* residuals, double** jacobians) const override {
+    double* jacobian = jacobians ? jacobians[0] : nullptr;
+    return attempt_.residuals(block_, y[0], residuals, jacobian) == Attempt::Outcome::fine;
+  }
+
+ private:
+  Attempt& attempt_;
+  int block_;
+};
+
+class WeightedLoss final : public ceres::LossFunction {
+ public:
+  WeightedLoss(const LeastSquares& structure, double weight)
+      : structure_(structure), weight_(weight) {}
+
+  void Evaluate(double squared, double rho[3]) const override {
+    const LossValue loss = structure_.loss_at(squared);
+    rho[0] = weight_ * loss.value;
+    rho[1] = weight_ * loss.slope;
+    rho[2] = weight_ * loss.curvature;
+  }
+
+ private:
+  const LeastSquares& structure_;
+  double weight_;
+};
+
+/// Sees every point that Ceres tries: for the count, the budget and the best point.
+class Trials final : public ceres::EvaluationCallback {
+ public:
+  explicit Trials(Attempt& attempt) : attempt_(attempt) {}
+
+  void PrepareForEvaluation(bool, bool new_point) override {
+    if (new_point) attempt_.begin_residuals();
+  }
+
+ private:
+  Attempt& attempt_;
+};
+
+/// Levenberg-Marquardt on the residuals.
+class TrustRegion final : public Solver {
+ public:
+  explicit TrustRegion(const CeresOptions& options) : options_(options) {}
+
+  Solution solve(const Problem& problem) const override {
+    if (refuses(problem)) return refused(problem);
+    Attempt attempt(problem, options_);
+    if (!attempt.open()) return attempt.finish(0, "");
+
+    const LeastSquares& structure = *problem.least_squares;
+    Problem::Vector y = attempt.start();
+    Trials trials(attempt);
+    ceres::Problem::Options problem_options;
+    problem_options.evaluation_callback = &trials;
+    ceres::Problem posed(problem_options);
+    for (int b = 0; b < structure.residuals->blocks(); ++b) {
+      posed.AddResidualBlock(new Block(attempt, b, structure.residuals->block_size()),
+                             new WeightedLoss(structure, structure.weight(b)), y.data());
+    }
+    if (attempt.bounded()) {
+      const Problem::Vector lower = attempt.lower(), upper = attempt.upper();
+      for (int k = 0; k < attempt.unknowns(); ++k) {
+        posed.SetParameterLowerBound(y.data(), k, lower[k]);
+        posed.SetParameterUpperBound(y.data(), k, upper[k]);
+      }
+    }
+    ShortStep short_step(attempt);
+    ceres::Solver::Options options;
+    options.linear_solver_type = ceres::DENSE_QR;
+    hand_over(short_step, options_, options);
+    ceres::Solver::Summary summary;
+    ceres::Solve(options, &posed, &summary);
+    return attempt.finish(summary.termination_type,
+                          ceres::TerminationTypeToString(summary.termination_type));
+  }
+
+  std::optional<std::string> refuses(const Problem& problem) const override {
+    if (!problem.least_squares) return "needs residuals: the cost is no sum of squares";
+    if (problem.constraints) return "takes no constraints";
+    return std::nullopt;
+  }
+
+ private:
+  CeresOptions options_;
+};
+
+template <class Member>
+const auto made = [](const CeresOptions& options) { return std::make_unique<Member>(options); };
 
 const Enrol<Solver, CeresOptions> enrolled[] = {
-    {"ceres.lbfgs", "Ceres: limited-memory BFGS", made<ceres::LBFGS>},
-    {"ceres.bfgs", "Ceres: BFGS", made<ceres::BFGS>}};
+    {"ceres.lbfgs", "Ceres: limited-memory BFGS", made<LineSearch<ceres::LBFGS>>},
+    {"ceres.bfgs", "Ceres: BFGS", made<LineSearch<ceres::BFGS>>},
+    {"ceres.least_squares", "Ceres: Levenberg-Marquardt on residuals, with robust losses",
+     made<TrustRegion>}};
 
 }  // namespace
 
