@@ -1,0 +1,336 @@
+"""What the `shoal` program says to bad input, and to surroundings that fail it.
+
+    python3 program_errors_test.py SHOAL        (the program)
+"""
+
+import os
+import resource
+import subprocess
+
+import desk
+from desk import Desk, FILE_PLAN, REPELLED, SMALL
+
+FILE_START = SMALL + '[swarm.start]\nkind = "file"\nfile.path = "starts.csv"\n'
+POINTS = SMALL + '[swarm.start]\nkind = "points"\n'
+RED_SEA = SMALL + '[current]\nkind = "netcdf"\nnetcdf.file = "library:currents/redsea_like.nc"\n'
+OTHER_SEA = SMALL + '[current]\nkind = "netcdf"\nnetcdf.file = "sea.nc"\n'
+
+
+def starts(second_row):
+    return {"starts.csv": "name,x_m,y_m\nNODE_1,0,0\n" + second_row + "\nNODE_3,9,9\nNODE_4,5,0\n"}
+
+
+# What is wrong, the scenario, the files beside it, and what the complaint must say, in order.
+BAD_SCENARIOS = [
+    ("an empty file", "", {}, ["s.toml: ", "says nothing", "[plan]"]),
+    ("a comment only", "# later\n", {}, ["s.toml: ", "says nothing"]),
+    ("no TOML", "[trial]\nduration_s = \n", {}, ["s.toml:2: ", "not TOML"]),
+    ("a table twice", SMALL + "[trial]\nseed = 1\n", {}, ["s.toml:5: ", "not TOML", "trial"]),
+    ("an open string", '[plan]\nkind = "square\n', {}, ["s.toml:2: ", "not TOML"]),
+    ("bytes", b"\x00\x01\xff" * 99, {}, ["s.toml:1: ", "not TOML"]),
+    ("no UTF-8", b'[trial]\nstart = "\xff"\n', {}, ["s.toml:2: ", "not TOML"]),
+    ("an unknown key", SMALL + "[ping]\nperod_s = 30\n", {},
+     ["s.toml:6: ", 'ping has no option "perod_s"', 'did you mean "period_s"?']),
+    ("an unknown table", SMALL + "[pin]\n", {}, ["s.toml:5: ", '"pin"', 'did you mean "ping"?']),
+    ("a table in a member", SMALL + "[behaviour.rigid_registration.x]\n", {},
+     ["s.toml:5: ", 'behaviour.rigid_registration has no option "x"; known are']),
+    ("a table of no member", SMALL + "[behaviour.rigid]\n", {},
+     ["s.toml:5: ", 'behaviour has no option "rigid"', 'did you mean "rigid_registration"?']),
+    ("wrong options of another kind",
+     SMALL + "[behaviour.assignment_registration]\ndelta_theta_deg = 0\n", {},
+     ["s.toml:6: ", "delta_theta_deg is 0; it takes above 0 and at most 180 deg"]),
+    ("text for a number", SMALL + '[ping]\nperiod_s = "30"\n', {},
+     ["s.toml:6: ", 'ping.period_s is a string ("30"); it takes a number in s']),
+    ("a number for a flag", SMALL + "[ping]\nidentified = 1\n", {},
+     ["s.toml:6: ", "ping.identified is an integer; it takes true or false"]),
+    ("a fraction for a count", SMALL + "[quality]\nlayers = 1.5\n", {},
+     ["s.toml:6: ", "quality.layers is a number; it takes an integer"]),
+    ("a value for a table", SMALL + "[faults]\nnode_loss = 3\n", {},
+     ["s.toml:6: ", "faults.node_loss is an integer; it takes a table"]),
+    ("a value for a choice", 'behaviour = "rigid_registration"\n' + SMALL, {},
+     ["s.toml:1: ", "behaviour is a string", 'behaviour.kind = "..."']),
+    ("a number for a kind", SMALL + "[behaviour]\nkind = 3\n", {},
+     ["s.toml:6: ", "behaviour.kind is an integer; it takes a string"]),
+    ("a date", SMALL + "[ping]\nperiod_s = 2014-12-01\n", {}, ["s.toml:6: ", "date"]),
+    ("an unknown kind", SMALL + '[behaviour]\nkind = "rigid_registraton"\n', {},
+     ["s.toml:6: ", 'no behaviour "rigid_registraton"', 'did you mean "rigid_registration"?']),
+    ("an unknown kind deep down",
+     SMALL + '[behaviour]\nkind = "attraction_repulsion"\n'
+     'attraction_repulsion = { potential.kind = "none" }\n', {},
+     ["s.toml:7: ", "behaviour.attraction_repulsion.potential.kind", 'no potential "none"']),
+    ("a solver of its old name", REPELLED + 'solver.kind = "nlopt_mma"\n', {},
+     ['s.toml:7: behaviour.attraction_repulsion.solver.kind: there is no solver "nlopt_mma"; '
+      'did you mean "nlopt.mma"?\n']),
+    ("a library for a solver", REPELLED + 'solver.kind = "nlopt"\n', {},
+     ["s.toml:7: ", 'there is no solver "nlopt"; did you mean one of nlopt.bobyqa, nlopt.ccsaq, ']),
+    ("a solver of no such library", REPELLED + "solver.nlop.mma.max_evaluations = 9\n", {},
+     ['s.toml:7: behaviour.attraction_repulsion.solver has no option "nlop"; did you mean '
+      '"nlopt"?\n']),
+    ("a solver that its library has not", REPELLED + "solver.nlopt.mna.max_evaluations = 9\n", {},
+     ['s.toml:7: behaviour.attraction_repulsion.solver.nlopt has no option "mna"; did you mean '
+      '"mma"?\n']),
+    ("a solver's option that is none", REPELLED + "solver.nlopt.mma.max_evaluation = 9\n", {},
+     ['s.toml:7: behaviour.attraction_repulsion.solver.nlopt.mma has no option "max_evaluation"; '
+      'did you mean "max_evaluations"?\n']),
+    ("a solver's option out of range", REPELLED + "solver.nlopt.mma.max_evaluations = 0\n", {},
+     ["s.toml:7: behaviour.attraction_repulsion.solver.nlopt.mma.max_evaluations is 0; "]),
+    ("a solver in quotes", REPELLED + 'solver."nlopt.mma".max_evaluations = 9\n', {},
+     ['s.toml:7: behaviour.attraction_repulsion.solver has no option "nlopt.mma"; write '
+      "behaviour.attraction_repulsion.solver.nlopt.mma without quotes\n"]),
+    ("an unknown word", SMALL + '[quality]\nalignment = "middle"\n', {},
+     ["s.toml:6: ", 'quality.alignment has no value "middle"', "known are centroid"]),
+    ("nan", SMALL + "[ping]\nperiod_s = nan\n", {}, ["s.toml:6: ", "ping.period_s is nan"]),
+    ("inf", SMALL + "[ping]\nperiod_s = inf\n", {}, ["s.toml:6: ", "ping.period_s is inf"]),
+    ("less than nothing", SMALL + "[ping]\nperiod_s = -30\n", {},
+     ["s.toml:6: ", "ping.period_s is -30; it takes above 0 s"]),
+    ("out of range", SMALL + "[ping]\nloss_probability = 1.5\n", {},
+     ["s.toml:6: ", "ping.loss_probability is 1.5; it takes from 0 to 1"]),
+    ("parts of a tick", SMALL + "[guidance]\nperiod_s = 0.3\n", {},
+     ["s.toml:6: ", "guidance.period_s is 0.3 s; it must be a multiple of trial.tick_s = 0.25 s"]),
+    ("a duration in parts of a tick", "[trial]\nduration_s = 60.1\n", {},
+     ["s.toml:2: ", "trial.duration_s is 60.1 s; it must be a multiple"]),
+    ("a record in parts of a tick", "[trial]\nrecord_every_s = 0.3\n", {},
+     ["s.toml:2: ", "trial.record_every_s is 0.3 s; it must be a multiple"]),
+    ("losses in parts of a tick", SMALL + "[faults.node_loss]\ncount = 1\nevery_s = 0.3\n", {},
+     ["s.toml:7: ", "faults.node_loss.every_s is 0.3 s; it must be a multiple"]),
+    ("a tick that fits nothing", "[trial]\ntick_s = 0.06\n", {},
+     ["s.toml:2: ", "guidance.period_s is 0.25 s", "trial.tick_s = 0.06 s"]),
+    ("more ticks than can be counted", "[trial]\nduration_s = 1e300\n", {},
+     ["s.toml:2: ", "trial.duration_s is 1e+300 s; it must be at most"]),
+    ("an endless pause", SMALL + "[ping]\nperiod_s = 1e300\n", {},
+     ["s.toml:6: ", "ping.period_s is 1e+300 s; it must be at most"]),
+    ("pings within a tick", SMALL + "[ping]\nperiod_s = 0.1\n", {},
+     ["s.toml:6: ", "ping.period_s is 0.1 s; it must be at least trial.tick_s"]),
+    ("a start that is no date", '[trial]\nstart = "tomorrow"\n', {},
+     ["s.toml:2: ", "trial.start", '"tomorrow" is no date', "2014-12-01T00:00:00Z"]),
+    ("losses at no time", SMALL + "[faults.node_loss]\ncount = 1\n", {},
+     ["s.toml:5: ", "faults.node_loss", "every_s must be above 0"]),
+    ("a vehicle's step that divides nothing",
+     SMALL + "[swarm.vehicle.drifter]\nstep_s = 0.07\n", {}, ["s.toml:5: ", "step_s"]),
+    ("ids needed and not given", SMALL + "[ping]\nidentified = false\n", {},
+     ["s.toml:6: ", "behaviour rigid_registration needs", "set ping.identified = true"]),
+    ("a rest longer than the period",
+     SMALL + '[behaviour]\nkind = "assignment_registration"\n'
+     "[ping]\nidentified = false\n[ping_filter]\nrest_s = 40\n", {},
+     ["s.toml:10: ", "ping_filter.rest_s must be shorter than ping.period_s"]),
+    ("no vehicles", "[plan]\nsquare.rows = 0\n", {}, ["s.toml:2: ", "plan.square.rows is 0"]),
+    ("one vehicle", "[plan]\nsquare = { rows = 1, columns = 1 }\n", {},
+     ["s.toml:", "one slot", "at least two"]),
+    ("too many vehicles for the quality", "[plan]\nsquare = { rows = 30, columns = 30 }\n", {},
+     ["s.toml:1: ", "quality of 900 vehicles", "set quality.every_s = 0"]),
+    ("a plan without a file", '[plan]\nkind = "file"\n', {}, ["s.toml:2: ", "plan.file.path"]),
+    ("a plan's file that is not there", FILE_PLAN, {}, ["s.toml:5: ", "plan.csv"]),
+    ("a plan with a name twice", FILE_PLAN, {"plan.csv": "name,x_m,y_m\na,0,0\na,1,1\n"},
+     ["plan.csv:3: ", "same name"]),
+    ("a plan with two slots in one place", FILE_PLAN,
+     {"plan.csv": "name,x_m,y_m\na,0,0\nb,0,0\n"}, ["plan.csv:3: ", "same place"]),
+    ("a plan with nan", FILE_PLAN, {"plan.csv": "name,x_m,y_m\na,0,0\nb,nan,0\n"},
+     ["plan.csv:3: ", "x_m", "nan"]),
+    ("a plan without a name", FILE_PLAN, {"plan.csv": "name,x_m,y_m\na,0,0\n,1,1\n"},
+     ["plan.csv:3: ", "name is empty"]),
+    ("a plan with a strange column", FILE_PLAN, {"plan.csv": "name,x,y_m\na,0,0\n"},
+     ["plan.csv:1: ", 'no column "x"', 'did you mean "x_m"?']),
+    ("an empty plan", FILE_PLAN, {"plan.csv": ""}, ["plan.csv: ", "empty"]),
+    ("a slot without a place", '[plan]\nkind = "nodes"\nnodes.nodes = ["name = a, x = 1"]\n', {},
+     ["s.toml:", "y is missing"]),
+    ("a start without a file", SMALL + '[swarm]\nstart.kind = "file"\n', {},
+     ["s.toml:6: ", "swarm.start.file.path"]),
+    ("a start's file that is not there", FILE_START, {}, ["s.toml:7: ", "starts.csv"]),
+    ("starts with nan", FILE_START, starts("NODE_2,nan,0"), ["starts.csv:3: ", "x_m", "nan"]),
+    ("starts of a stranger", FILE_START, starts("NODE_7,1,0"),
+     ["starts.csv:3: ", '"NODE_7"', "it has NODE_1"]),
+    ("starts that lack one", FILE_START, starts("#"), ["starts.csv: ", "no start for NODE_2"]),
+    ("starts with one twice", FILE_START, starts("NODE_1,1,0"),
+     ["starts.csv:3: ", "NODE_1 starts twice"]),
+    ("starts in one place", FILE_START, starts("NODE_2,0,0"),
+     ["starts.csv: ", "NODE_1 and NODE_2 both start at (0, 0)"]),
+    ("points in one place", POINTS + "points.points = [[0, 0], [1, 1], [0, 0], [2, 2]]\n", {},
+     ["s.toml:7: ", "NODE_1 and NODE_3 both start at (0, 0)"]),
+    ("too few points", POINTS + "points.points = [[0, 0]]\n", {}, ["s.toml:7: ", "1 point"]),
+    ("points with nan", POINTS + "points.points = [[0, 0], [1, nan], [3, 0], [2, 2]]\n", {},
+     ["s.toml:7: ", "nan"]),
+    ("points that are no pairs", POINTS + "points.points = [[0, 0, 0]]\n", {},
+     ["s.toml:7: ", "[x, y] pairs"]),
+    ("points beyond the sea", POINTS + "points.points = [[0, 0], [1, 1], [1e300, 0], [2, 2]]\n",
+     {}, ["s.toml:7: ", "NODE_3", "1e+300"]),
+    ("no current file named", SMALL + '[current]\nkind = "netcdf"\n', {},
+     ["s.toml:6: ", "current.netcdf", "file"]),
+    ("a current file that is not there", OTHER_SEA, {}, ["s.toml:7: ", "sea.nc"]),
+    ("a current file that is text", OTHER_SEA, {"sea.nc": "hello"},
+     ["s.toml:7: ", "sea.nc: is not a netCDF file"]),
+    ("a current file that is empty", OTHER_SEA, {"sea.nc": ""}, ["s.toml:7: ", "sea.nc"]),
+    ("a current that ends", RED_SEA + "netcdf.time_offset_s = 1e7\n", {},
+     ["s.toml:7: ", "redsea_like.nc: no current at t = 0 s: the file ends", "duration_s"]),
+    ("a current that has not begun", RED_SEA + "netcdf.time_offset_s = -10\n", {},
+     ["s.toml:7: ", "the file begins at", "time_offset_s"]),
+    ("a current that is elsewhere", RED_SEA + "[swarm]\nstart.box.side_m = 1e6\n", {},
+     ["s.toml:7: ", "the file covers x from"]),
+    ("a current's date that is none", RED_SEA + 'netcdf.start = "tomorrow"\n', {},
+     ["s.toml:7: ", "current.netcdf.start", '"tomorrow"']),
+]
+
+# Arguments behind `shoal`, and what the complaint must say.
+BAD_ARGUMENTS = [
+    ([], ["subcommand is required", "--help"]),
+    (["frobnicate"], ["--help"]),
+    (["run"], ["scenario is required"]),
+    (["run", "redsea_sqare"], ['no file "redsea_sqare"', 'did you mean "redsea_square"?']),
+    (["run", ""], ['no file ""']),
+    (["run", "."], ["directory"]),
+    (["run", "ok.toml", "--frobnicate"], ["--frobnicate"]),
+    (["run", "ok.toml", "--set", "trial.seed"], ["--set trial.seed: ", "KEY=VALUE"]),
+    (["run", "ok.toml", "--set", "=3"], ["--set =3: ", "KEY=VALUE"]),
+    (["run", "ok.toml", "--set", "trial.sed=3"], ["--set trial.sed=3: ", 'did you mean "seed"?']),
+    (["run", "ok.toml", "--set", "trial..seed=3"], ["not a dotted key"]),
+    (["run", "ok.toml", "--set", "trial.seed=[1,"], ["not a TOML value"]),
+    (["run", "ok.toml", "--set", "trial.seed=a\nb"], ['a string ("a\\x0ab")', "an integer"]),
+    (["run", "ok.toml", "--set", "trial=3"], ["trial is an integer; it takes a table"]),
+    (["run", "ok.toml", "--set", "plan.square.rows=9223372036854775807"],
+     ["plan.square.rows is 9223372036854775807; it takes from 1"]),
+    (["run", "ok.toml", "--seed", "-1"], ["trial.seed is -1; it takes from 0"]),
+    (["run", "ok.toml", "--seed", "99999999999999999999"], ["99999999999999999999", "integer"]),
+    (["run", "ok.toml", "--seed", "1.5"], ["trial.seed is a number; it takes an integer"]),
+    (["run", "ok.toml", "--threads", "0"], ["--threads", "1 to 1024"]),
+    (["run", "ok.toml", "--out", ""], ["--out"]),
+    (["run", "ok.toml", "--set",
+      "behaviour.attraction_repulsion.solver.nlopt.mma.max_evaluations=0"],
+     ["--set behaviour.attraction_repulsion.solver.nlopt.mma.max_evaluations=0: behaviour."
+      "attraction_repulsion.solver.nlopt.mma.max_evaluations is 0; it takes from 1 to 1e+09\n"]),
+    (["list", "behavior"], ['no family "behavior"', 'did you mean "behaviour"?']),
+    (["list", "solvres"], ['no family "solvres"', 'did you mean "solver"?']),
+    (["list", "everything"], ['no family "everything"', "known are behaviour, cohesion, current, "]),
+    (["describe"], ["required"]),
+    (["describe", "rigid"], ['"rigid"', 'did you mean "rigid_registration"?']),
+    (["describe", "quux quux"], ["shoal list"]),
+    (["describe", "ping.perod_s"], ["ping has no option", 'did you mean "period_s"?']),
+    (["describe", "ping.period_s.x"], ["ping.period_s is a number"]),
+    (["describe", "behaviour.rigid.x"], ['did you mean "rigid_registration"?']),
+    (["describe", "."], ['no option ""']),
+    (["describe", "pin.period_s"], ['a scenario has no option "pin"; did you mean "ping"?']),
+    (["describe", "nlopt.lbgfs"], ['nothing is called "nlopt.lbgfs"; did you mean "nlopt.lbfgs"?']),
+    (["describe", "nlopt"],
+     ['nothing is called "nlopt"; did you mean one of nlopt.bobyqa, ', " and nlopt.var2?"]),
+    (["describe", "nlopt_lbfgs"], ['did you mean "nlopt.lbfgs"?']),
+    (["describe", "behaviour.attraction_repulsion.solver.nlopt"],
+     ['behaviour.attraction_repulsion.solver: there is no solver "nlopt"; did you mean one of ']),
+    (["describe", "behaviour.attraction_repulsion.solver.nlopt.lbgfs.max_evaluations"],
+     ['there is no solver "nlopt.lbgfs"; did you mean "nlopt.lbfgs"?']),
+    (["describe", "behaviour.attraction_repulsion.solver.nlopt.lbfgs.evaluations"],
+     ['behaviour.attraction_repulsion.solver.nlopt.lbfgs has no option "evaluations"']),
+    (["solve"], ["required"]),
+    (["solve", "missing.jsonl"], ["--solvers is required"]),
+    (["solve", "missing.jsonl", "--solvers", "newton"], ["cannot open missing.jsonl"]),
+    (["solve", "notes.txt", "--solvers", "newton"], ["notes.txt: holds no problem"]),
+    (["solve", "ok.toml", "--solvers", "newton"],
+     ["ok.toml:1: this is no line of a corpus; shoal run --record-problems writes one"]),
+    (["solve", "ok.toml", "--solvers", "newtn"],
+     ['there is no solver "newtn"; did you mean "newton"?']),
+    (["solve", "ok.toml", "--solvers", "newton", "--format", "pdf"],
+     ['there is no format "pdf"', "text, csv, markdown and latex"]),
+    (["solve", "ok.toml", "--solvers", "newton", "--set", "newton.max_evaluations=3"],
+     ['there is no family of solvers "newton"', "known are solver, registration and matching"]),
+    (["solve", "ok.toml", "--solvers", "newton", "--set", "solver.newton.max_evaluation=3"],
+     ['solver.newton has no option "max_evaluation"; did you mean "max_evaluations"?']),
+    (["solve", "ok.toml", "--solvers", "newton", "--reference", "grid"],
+     ['the reference "grid" is not among the solvers']),
+    (["solve", "ok.toml", "--solvers", "newton", "--same-within", "-1"], ["--same-within"]),
+    (["corpus"], ["required"]),
+    (["corpus", "c.jsonl", "--keep", "0"], ["--keep"]),
+    (["corpus", "c.jsonl", "--duration", "-5"], ["trial.duration_s is -5"]),
+    (["corpus", "c.jsonl", "--seed", "x"], ["trial.seed"]),
+    (["check"], ["required"]),
+    (["check", "missing.toml"], ["missing.toml"]),
+    (["check", "missing.csv"], ["missing.csv"]),
+    (["check", "missing.nc"], ["missing.nc"]),
+    (["check", "notes.txt"], ["notes.txt", ".toml, .csv and .nc"]),
+    (["check", "ok.toml", "bad.csv"], ["bad.csv", "two slots named a"]),
+    (["check", "bad.nc"], ["bad.nc", "not a netCDF file"]),
+]
+
+
+class BadInput(Desk):
+    def test_a_bad_scenario_is_refused_in_one_line(self):
+        for title, scenario, files, parts in BAD_SCENARIOS:
+            with self.subTest(title):
+                self.setUp()
+                self.write("s.toml", scenario)
+                for name, content in files.items():
+                    self.write(name, content)
+                before = self.files()
+                self.assert_complains(self.shoal("run", "s.toml", "--out", "out"), 2, parts)
+                self.assertEqual(self.files(), before)
+
+    def test_bad_arguments_are_refused_in_one_line(self):
+        self.write("notes.txt", "")
+        self.write("bad.csv", "name,x_m,y_m\na,0,0\na,1,1\n")
+        self.write("bad.nc", "no netCDF")
+        before = self.files()
+        for arguments, parts in BAD_ARGUMENTS:
+            with self.subTest(" ".join(arguments)):
+                self.assert_complains(self.shoal(*arguments), 2, parts)
+                self.assertEqual(self.files(), before)
+
+    def test_an_earlier_result_outlives_bad_input(self):
+        self.run_trial("ok.toml")
+        before = (self.desk / "out/summary.json").read_bytes()
+        self.assertEqual(self.shoal("run", "ok.toml", "--seed", "x", "--out", "out").returncode, 2)
+        self.assertEqual((self.desk / "out/summary.json").read_bytes(), before)
+
+
+class BadSurroundings(Desk):
+    def test_a_file_where_the_folder_should_be(self):
+        self.write("taken", "mine")
+        for out in ["taken", "taken/below"]:
+            self.assert_complains(self.shoal("run", "ok.toml", "--out", out), 1, [out, "--out"])
+        self.assertEqual((self.desk / "taken").read_text(), "mine")
+
+    def test_a_folder_that_cannot_be_written(self):
+        if os.geteuid() == 0:
+            self.skipTest("root may write anywhere")
+        (self.desk / "locked").mkdir(mode=0o555)
+        self.assert_complains(self.shoal("run", "ok.toml", "--out", "locked"), 1, ["locked"])
+
+    def test_a_full_disk_leaves_nothing_half_written(self):
+        for limit in [0, 1024, 4096, 16384]:
+            with self.subTest(f"{limit} bytes"):
+                self.setUp()
+                done = self.shoal(
+                    "run", "ok.toml", "--out", "out",
+                    preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (limit, limit)))
+                self.assert_complains(done, 1, ["cannot write out/", "free space"])
+                self.assertLessEqual(self.files(), {"ok.toml", "out/scenario.toml"})
+
+    def test_results_that_are_cut_short_do_not_stand_beside_old_ones(self):
+        self.run_trial("ok.toml")
+        done = self.shoal(
+            "run", "ok.toml", "--out", "out",
+            preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (4096, 4096)))
+        self.assertEqual(done.returncode, 1)
+        self.assertEqual(self.files(), {"ok.toml", "out/scenario.toml"})
+
+    def test_a_folder_where_a_result_should_be(self):
+        self.write("out/summary.json/mine", "")
+        self.assert_complains(self.shoal("run", "ok.toml", "--out", "out"), 1, ["summary.json"])
+
+    def test_a_terminal_that_takes_nothing(self):
+        with open("/dev/full", "w", encoding="utf-8") as full:
+            done = subprocess.run([desk.SHOAL, "list", "behaviour"], stdout=full, check=False,
+                                  stderr=subprocess.PIPE, text=True)
+        self.assert_complains(done, 1, ["cannot write"])
+
+
+    def test_files_that_cannot_be_written_are_refused_before_the_work(self):
+        for arguments in (["corpus", "ok.toml/c.jsonl"],
+                          ["run", "ok.toml", "--record-problems", "ok.toml/c.jsonl"]):
+            self.assert_complains(self.shoal(*arguments), 1,
+                                  ["cannot write into ", "choose another place for ok.toml/c.jsonl"])
+        self.assert_complains(self.shoal("corpus", "."), 1, ["cannot write .: it is a folder"])
+
+    def test_no_folder_is_made_for_profiles_of_a_corpus_that_is_none(self):
+        self.assert_complains(self.shoal("solve", "ok.toml", "--solvers", "newton", "--profiles",
+                                         "new/p.csv"), 2, ["ok.toml:1: "])
+        self.assertFalse((self.desk / "new").exists())
+
+
+if __name__ == "__main__":
+    desk.main()
