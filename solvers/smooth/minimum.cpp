@@ -103,7 +103,6 @@ template <int N>
 bool lowest_around(const Part<N>& slope, const Square<N>& curvature, double longest,
                    double steepest) {
   constexpr double flat = 1e-6;
-  constexpr double rounding = 1e-10;
   const Eigen::LLT<Square<N>> factor(curvature);  // the usual case, and fast
   if (factor.info() == Eigen::Success) {
     const Part<N> step = factor.solve(slope);
@@ -116,7 +115,7 @@ bool lowest_around(const Part<N>& slope, const Square<N>& curvature, double long
   double squared = 0.0;
   for (Eigen::Index i = 0; i < bends.size(); ++i) {
     if (bends[i] < -negligible_bend * largest) return false;
-    if (bends[i] > rounding * largest) {
+    if (bends[i] > bend_of_rounding * largest) {
       squared += along[i] * along[i] / (bends[i] * bends[i]);
     } else if (std::abs(along[i]) > flat * steepest) {
       return false;

@@ -8,6 +8,9 @@ namespace shoal::solvers {
 /// round a single neighbour the cost curves downwards along it by as much as the ring is missed.
 inline constexpr double negligible_bend = 1e-4;
 
+/// Bends of less than this part of the largest one are rounding.
+inline constexpr double bend_of_rounding = 1e-10;
+
 /// How far a point is outside the bounds, m.
 double bounds_violation(const Problem& problem, const Problem::Vector& x);
 

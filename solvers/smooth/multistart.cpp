@@ -1,5 +1,8 @@
 #include <boost/random/sobol.hpp>
 
+#include <algorithm>
+#include <chrono>
+#include <cmath>
 #include <vector>
 
 #include "shoal/core/random.hpp"

@@ -51,13 +51,12 @@ struct Point {
 /// a vehicle pushed off by a single neighbour would swerve around it.)
 template <int N>
 Vec<N> step_down(const Vec<N>& slope, const Mat<N>& curvature, double radius, double shortest) {
-  // Bends smaller than this are taken for rounding, and would make long steps of it.
-  constexpr double rounding = 1e-10;
   const Eigen::LLT<Mat<N>> factor(curvature);
   if (factor.info() == Eigen::Success) {
     const auto pivots = factor.matrixLLT().diagonal().array().square();
     const Vec<N> newton = -factor.solve(slope);
-    if (pivots.minCoeff() > rounding * pivots.maxCoeff() &&
+    // Of a bend that is rounding, a long step would be made.
+    if (pivots.minCoeff() > bend_of_rounding * pivots.maxCoeff() &&
         newton.squaredNorm() <= radius * radius) {
       return newton;
     }
@@ -66,7 +65,7 @@ Vec<N> step_down(const Vec<N>& slope, const Mat<N>& curvature, double radius, do
   const Vec<N>& bends = eigen.eigenvalues();
   const Vec<N> along = eigen.eigenvectors().transpose() * slope;
   const double largest = std::max(bends.cwiseAbs().maxCoeff(), std::numeric_limits<double>::min());
-  const Vec<N> sizes = bends.cwiseAbs().cwiseMax(rounding * largest);
+  const Vec<N> sizes = bends.cwiseAbs().cwiseMax(bend_of_rounding * largest);
   const auto step = [&](double shift) { return Vec<N>(-along.array() / (sizes.array() + shift)); };
 
   // |p| falls as the shift grows; here no part of it is longer than the radius, and the whole not
