@@ -44,7 +44,7 @@ void read_options(const Schema& schema, void* object, const Setting& table,
   for (const auto& [name, value] : table.table()) {
     const Option* option = schema.find(name);
     if (!option) {
-      const std::string owner = path.empty() ? "a scenario" : path;
+      const std::string& owner = path.empty() ? schema.noun : path;
       throw InputError(value.origin,
                        owner + " has no option \"" + name + '"' + suggestion(name, schema.names()));
     }

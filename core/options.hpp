@@ -67,6 +67,7 @@ struct Option {
 struct Schema {
   std::vector<Option> options;
   Setting defaults;
+  std::string noun;  ///< what the struct as a whole is called in messages: "a scenario"
 
   const Option* find(std::string_view name) const;
   std::vector<std::string> names() const;
@@ -99,6 +100,8 @@ class Options {
   void text(std::string name, std::string T::*member, std::string meaning);
   void file(std::string name, FilePath T::*member, std::string meaning);
   void texts(std::string name, std::vector<std::string> T::*member, std::string meaning);
+  void numbers(std::string name, std::vector<double> T::*member, std::string unit, Range range,
+               std::string meaning);
   void points(std::string name, std::vector<Eigen::Vector2d> T::*member, std::string meaning,
               std::string unit = "m");
 
@@ -110,6 +113,13 @@ class Options {
   /// A nested declared struct.
   template <class Nested>
   void table(std::string name, Nested T::*member, std::string meaning);
+
+  /// Any number of declared structs: `[[name]]` in a file.
+  template <class Nested>
+  void tables(std::string name, std::vector<Nested> T::*member, std::string meaning);
+
+  /// A value whose form is somebody else's affair; `type` says what it takes, for messages.
+  void setting(std::string name, Setting T::*member, std::string type, std::string meaning);
 
   /// A member of a family: `name.kind = "x"`, its options in the table `name.x`.
   template <class Family>

@@ -110,6 +110,41 @@ void Options<T>::texts(std::string name, std::vector<std::string> T::*member, st
 }
 
 template <class T>
+void Options<T>::numbers(std::string name, std::vector<double> T::*member, std::string unit,
+                         Range range, std::string meaning) {
+  add(
+      {.name = std::move(name),
+       .unit = std::move(unit),
+       .meaning = std::move(meaning),
+       .type = "a list of numbers",
+       .range = range},
+      member,
+      [](const Option& option, const Setting& value, const std::string& key) {
+        std::vector<double> numbers;
+        for (const Setting& entry : detail::as_list(option, value, key)) {
+          numbers.push_back(detail::as_number(option, entry, key));
+        }
+        return numbers;
+      },
+      [](const std::vector<double>& numbers) {
+        Setting::List list;
+        for (const double number : numbers) list.push_back(detail::plain(number));
+        return list;
+      });
+}
+
+template <class T>
+void Options<T>::setting(std::string name, Setting T::*member, std::string type,
+                         std::string meaning) {
+  Option option{.name = std::move(name), .meaning = std::move(meaning), .type = std::move(type)};
+  option.read = [member](void* object, const Setting& value, const std::string&) {
+    static_cast<T*>(object)->*member = value;
+  };
+  option.write = [member](const void* object) { return static_cast<const T*>(object)->*member; };
+  options_.push_back(std::move(option));
+}
+
+template <class T>
 void Options<T>::points(std::string name, std::vector<Eigen::Vector2d> T::*member,
                         std::string meaning, std::string unit) {
   add(
@@ -177,11 +212,34 @@ void Options<T>::table(std::string name, Nested T::*member, std::string meaning)
 }
 
 template <class T>
+template <class Nested>
+void Options<T>::tables(std::string name, std::vector<Nested> T::*member, std::string meaning) {
+  Option option{.name = std::move(name), .meaning = std::move(meaning), .type = "a list of tables"};
+  const Option described = option;
+  option.read = [described, member](void* object, const Setting& value, const std::string& key) {
+    std::vector<Nested>& list = static_cast<T*>(object)->*member;
+    list.clear();
+    for (const Setting& entry : detail::as_list(described, value, key)) {
+      shoal::read(list.emplace_back(), entry, key);
+    }
+  };
+  option.write = [member](const void* object) {
+    Setting::List list;
+    for (const Nested& entry : static_cast<const T*>(object)->*member) {
+      list.push_back(write_options(schema_of<Nested>(), &entry));
+    }
+    return detail::plain(std::move(list));
+  };
+  options_.push_back(std::move(option));
+}
+
+template <class T>
 const Schema& schema_of() {
   static const Schema schema = [] {
     Options<T> options;
     T::declare(options);
-    Schema made{options.take(), {}};
+    Schema made{options.take(), {}, "a scenario"};
+    if constexpr (requires { T::noun; }) made.noun = T::noun;
     const T fresh{};
     made.defaults = write_options(made, &fresh);
     return made;

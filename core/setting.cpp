@@ -1,5 +1,6 @@
 #include "shoal/core/setting.hpp"
 
+#include <algorithm>
 #include <array>
 
 #include "shoal/core/text.hpp"
@@ -62,19 +63,41 @@ std::string inline_text(const Setting& setting) {
   return std::visit(InlineText{}, setting.value);
 }
 
+/// Written as `[[name]]`, entry by entry.
+bool is_list_of_tables(const Setting& setting) {
+  const auto* list = std::get_if<Setting::List>(&setting.value);
+  return list && !list->empty() &&
+         std::ranges::all_of(*list, [](const Setting& entry) { return entry.is_table(); });
+}
+
+bool has_own_header(const Setting& setting) {
+  return setting.is_table() || is_list_of_tables(setting);
+}
+
+void write_table(const Setting::Table& table, const std::string& path, std::string& out);
+
+void write_entries(const Setting::Table& table, const std::string& path, std::string& out) {
+  for (const auto& [name, entry] : table) {
+    if (!has_own_header(entry)) out += key_text(name) + " = " + inline_text(entry) + "\n";
+  }
+  for (const auto& [name, entry] : table) {
+    const std::string below = path.empty() ? key_text(name) : path + "." + key_text(name);
+    if (entry.is_table()) write_table(entry.table(), below, out);
+    if (!is_list_of_tables(entry)) continue;
+    for (const Setting& each : std::get<Setting::List>(entry.value)) {
+      out += (out.empty() ? "[[" : "\n[[") + below + "]]\n";
+      write_entries(each.table(), below, out);
+    }
+  }
+}
+
 void write_table(const Setting::Table& table, const std::string& path, std::string& out) {
-  bool has_values = false;
-  for (const auto& [name, entry] : table) has_values |= !entry.is_table();
+  const bool has_values =
+      std::ranges::any_of(table, [](const auto& entry) { return !has_own_header(entry.second); });
   if (!path.empty() && (has_values || table.empty())) {
     out += (out.empty() ? "[" : "\n[") + path + "]\n";
   }
-  for (const auto& [name, entry] : table) {
-    if (!entry.is_table()) out += key_text(name) + " = " + inline_text(entry) + "\n";
-  }
-  for (const auto& [name, entry] : table) {
-    if (!entry.is_table()) continue;
-    write_table(entry.table(), path.empty() ? key_text(name) : path + "." + key_text(name), out);
-  }
+  write_entries(table, path, out);
 }
 
 }  // namespace

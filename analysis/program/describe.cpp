@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "commands.hpp"
-#include "shoal/core/registry.hpp"
+#include "shoal/core/option_place.hpp"
 #include "shoal/core/text.hpp"
 #include "shoal/scenarios/library_path.hpp"
 #include "shoal/scenarios/scenario.hpp"
@@ -63,48 +63,12 @@ void print_member(const RegistryBase& family, const MemberInfo& member, const st
   print_schema(member.schema(), path);
 }
 
-/// Walks a dotted key from the scenario's root. Throws InputError at the first unknown part.
+/// Throws InputError at the first unknown part of the key.
 void describe_key(const std::string& key) {
-  const Schema* schema = &schema_of<scenarios::Scenario>();
-  const Option* choice = nullptr;  // set behind an option that is one, until a member is named
-  const Setting* fallback = nullptr;
-  std::string walked;
-  const auto parts = split(key, '.');
-  for (std::size_t i = 0; i < parts.size(); ++i) {
-    const std::string part(parts[i]);
-    const bool last = i + 1 == parts.size();
-    if (choice && part == "kind" && last) return print_choice(*choice, *fallback, walked);
-    if (choice) {
-      const RegistryBase& family = *choice->choice;
-      std::string name = part;
-      while (!family.find(name) && family.has_below(name) && i + 1 < parts.size()) {
-        name += "." + std::string(parts[++i]);
-      }
-      const MemberInfo& member = family.members()[family.index_of(name, {}, walked)];
-      walked += "." + name;
-      if (i + 1 == parts.size()) return print_member(family, member, walked);
-      schema = &member.schema();
-      choice = nullptr;
-      continue;
-    }
-    const Option* option = schema->find(part);
-    if (!option) {
-      const std::string owner = walked.empty() ? "a scenario" : walked;
-      throw InputError(owner + " has no option \"" + part + '"' +
-                       suggestion(part, schema->names()));
-    }
-    walked = dotted(walked, part);
-    fallback = schema->defaults.find(part);
-    if (last) return print_entry(*option, *fallback, walked);
-    if (option->choice) {
-      choice = option;
-    } else if (option->table) {
-      schema = option->table;
-    } else {
-      throw InputError(walked + " is " + option->type + ", so it has no \"" +
-                       std::string(parts[i + 1]) + '"');
-    }
-  }
+  const OptionPlace place = locate(schema_of<scenarios::Scenario>(), key);
+  if (place.is_kind) return print_choice(*place.option, *place.fallback, place.key);
+  if (place.member) return print_member(*place.option->choice, *place.member, place.key);
+  print_entry(*place.option, *place.fallback, place.key);
 }
 
 /// Every member of that name, of whatever family. Returns whether there is one.

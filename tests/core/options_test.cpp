@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "shoal/core/option_place.hpp"
 #include "shoal/core/registry.hpp"
 #include "tests/core/settings.hpp"
 
@@ -68,6 +69,9 @@ struct Everything {
   Mode mode = Mode::fast;
   Nested nested;
   Choice<Shape> shape{"square"};
+  std::vector<double> weights;
+  std::vector<Nested> parts;
+  Setting free;
 
   static void declare(Options<Everything>& o) {
     o.number("speed_m_s", &Everything::speed_m_s, "m/s", in(0, 5), "speed");
@@ -80,6 +84,9 @@ struct Everything {
     o.word("mode", &Everything::mode, {{"fast", Mode::fast}, {"slow", Mode::slow}}, "how");
     o.table("nested", &Everything::nested, "nested options");
     o.choice("shape", &Everything::shape, "the shape");
+    o.numbers("weights", &Everything::weights, "kg", at_least(0), "how heavy");
+    o.tables("part", &Everything::parts, "its parts");
+    o.setting("free", &Everything::free, "anything", "as somebody wrote it");
   }
 
   std::optional<std::string> complaint() const {
@@ -112,6 +119,42 @@ TEST(Options, ReadEveryKindOfValue) {
   const auto points = reading(with("points", value(Setting::List{pair}))).points;
   ASSERT_EQ(points.size(), 1u);
   EXPECT_EQ(points[0], Eigen::Vector2d(1, -2.5));
+}
+
+TEST(Options, ReadListsOfNumbersAndOfTables) {
+  const Setting weights = value(Setting::List{integer(1), value(2.5)});
+  EXPECT_EQ(reading(with("weights", weights)).weights, (std::vector<double>{1.0, 2.5}));
+  const Setting parts = value(Setting::List{with("count", integer(3)), Setting{}});
+  const Everything read_back = reading(with("part", parts));
+  ASSERT_EQ(read_back.parts.size(), 2u);
+  EXPECT_EQ(read_back.parts[0].count, 3);
+  EXPECT_EQ(read_back.parts[1].count, 2);
+  EXPECT_EQ(reading(with("free.x", integer(7))).free.find("x")->origin.line, 4);
+
+  EXPECT_EQ(complaint("weights", value(Setting::List{integer(-1)})),
+            "dir/s.toml:4: weights is -1; it takes at least 0 kg");
+  EXPECT_EQ(complaint("weights", integer(1)),
+            "dir/s.toml:4: weights is an integer; it takes a list of numbers in kg");
+  EXPECT_EQ(complaint("part", Setting{Setting::Table{}, {"dir/s.toml", 4}}),
+            "dir/s.toml:4: part is a table; it takes a list of tables");
+  EXPECT_EQ(complaint("part", value(Setting::List{with("count", integer(10))})),
+            "dir/s.toml:4: part.count is 10; it takes from 0 to 9");
+}
+
+TEST(Options, AreFoundByTheirDottedKeys) {
+  const Schema& schema = schema_of<Everything>();
+  EXPECT_EQ(locate(schema, "nested.count").option->meaning, "how many");
+  EXPECT_EQ(locate(schema, "shape.disc.diameter_m").option->unit, "m");
+  EXPECT_EQ(locate(schema, "shape.disc").member->name, "disc");
+  EXPECT_TRUE(locate(schema, "shape.kind").is_kind);
+  const auto wrong = [&](const char* key) {
+    return complaint_of([&] { locate(schema, key, {"dir/s.toml", 4}); });
+  };
+  EXPECT_EQ(wrong("nestd"),
+            "dir/s.toml:4: a scenario has no option \"nestd\"; did you mean \"nested\"?");
+  EXPECT_EQ(wrong("shape.dic.diameter_m"),
+            "dir/s.toml:4: shape: there is no shape \"dic\"; did you mean \"disc\"?");
+  EXPECT_EQ(wrong("steps.x"), "dir/s.toml:4: steps is an integer, so it has no \"x\"");
 }
 
 TEST(Options, KeepTheirDefaultsWhenNobodySetsThem) {
@@ -211,7 +254,7 @@ TEST(Options, WriteWhatTheyRead) {
 
 TEST(Options, DescribeThemselves) {
   const Schema& schema = schema_of<Everything>();
-  EXPECT_EQ(schema.options.size(), 10u);
+  EXPECT_EQ(schema.options.size(), 13u);
   EXPECT_EQ(schema.find("speed_m_s")->unit, "m/s");
   EXPECT_EQ(schema.find("mode")->type, "one of \"fast\", \"slow\"");
   EXPECT_EQ(schema.find("nested")->table, &schema_of<Nested>());

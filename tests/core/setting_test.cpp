@@ -59,6 +59,23 @@ TEST(Setting, ToTomlPutsValuesBeforeSubTables) {
             "x = 1.0\n");
 }
 
+TEST(Setting, ToTomlWritesListsOfTablesEntryByEntry) {
+  Setting first, second, root;
+  assign(first, "x", value(1.0));
+  assign(first, "set.y", value(std::int64_t{2}));
+  assign(second, "x", value(3.0));
+  assign(root, "group.step", value(Setting::List{first, second}));
+  assign(root, "none", value(Setting::List{}));
+  EXPECT_EQ(to_toml(root),
+            "none = []\n"
+            "\n[[group.step]]\n"
+            "x = 1.0\n"
+            "\n[group.step.set]\n"
+            "y = 2\n"
+            "\n[[group.step]]\n"
+            "x = 3.0\n");
+}
+
 TEST(Setting, SaysWhatAValueIs) {
   EXPECT_EQ(value(true).type_name(), "true or false");
   EXPECT_EQ(value(std::int64_t{1}).type_name(), "an integer");

@@ -1,0 +1,51 @@
+#include "shoal/core/option_place.hpp"
+
+#include "shoal/core/text.hpp"
+
+namespace shoal {
+
+OptionPlace locate(const Schema& root, const std::string& key, const Origin& origin) {
+  const Schema* schema = &root;
+  const Option* choice = nullptr;  // set behind an option that is one, until a member is named
+  OptionPlace place;
+  const auto parts = split(key, '.');
+  for (std::size_t i = 0; i < parts.size(); ++i) {
+    const std::string part(parts[i]);
+    if (choice && part == "kind" && i + 1 == parts.size()) {
+      place.is_kind = true;
+      break;
+    }
+    if (choice) {
+      const RegistryBase& family = *choice->choice;
+      std::string name = part;
+      while (!family.find(name) && family.has_below(name) && i + 1 < parts.size()) {
+        name += "." + std::string(parts[++i]);
+      }
+      place.member = &family.members()[family.index_of(name, origin, place.key)];
+      place.key += "." + name;
+      schema = &place.member->schema();
+      choice = nullptr;
+      continue;
+    }
+    const Option* option = schema->find(part);
+    if (!option) {
+      const std::string& owner = place.key.empty() ? schema->noun : place.key;
+      throw InputError(
+          origin, owner + " has no option \"" + part + '"' + suggestion(part, schema->names()));
+    }
+    place.option = option;
+    place.member = nullptr;
+    place.key = dotted(place.key, part);
+    place.fallback = schema->defaults.find(part);
+    choice = option->choice ? option : nullptr;
+    if (option->table) {
+      schema = option->table;
+    } else if (!choice && i + 1 < parts.size()) {
+      throw InputError(origin, place.key + " is " + option->type + ", so it has no \"" +
+                                   std::string(parts[i + 1]) + '"');
+    }
+  }
+  return place;
+}
+
+}  // namespace shoal

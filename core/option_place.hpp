@@ -1,0 +1,21 @@
+#pragma once
+
+#include <string>
+
+#include "shoal/core/registry.hpp"
+
+namespace shoal {
+
+/// What a dotted key (`behaviour.rigid_registration.ownship_weight`) names in a declared struct.
+struct OptionPlace {
+  std::string key;
+  const Option* option = nullptr;      ///< the last option on the way
+  const Setting* fallback = nullptr;   ///< its default
+  const MemberInfo* member = nullptr;  ///< set if the key ends with a member of a choice
+  bool is_kind = false;                ///< the key ends with `.kind`, behind an option that is one
+};
+
+/// Walks a dotted key. Throws InputError (at `origin`) at the first part that is not known.
+OptionPlace locate(const Schema& schema, const std::string& key, const Origin& origin = {});
+
+}  // namespace shoal
