@@ -48,4 +48,23 @@ OptionPlace locate(const Schema& root, const std::string& key, const Origin& ori
   return place;
 }
 
+void visit_options(const Schema& schema, Setting& written,
+                   const std::function<void(const Option&, Setting& value)>& visitor) {
+  for (const Option& option : schema.options) {
+    Setting* value = written.find(option.name);
+    if (!value) continue;
+    if (option.table) {
+      visit_options(*option.table, *value, visitor);
+      continue;
+    }
+    visitor(option, *value);
+    if (!option.choice) continue;
+    for (const MemberInfo& member : option.choice->members()) {
+      if (Setting* table = value->find_path(member.name)) {
+        visit_options(member.schema(), *table, visitor);
+      }
+    }
+  }
+}
+
 }  // namespace shoal

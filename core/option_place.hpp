@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <string>
 
 #include "shoal/core/registry.hpp"
@@ -17,5 +18,10 @@ struct OptionPlace {
 
 /// Walks a dotted key. Throws InputError (at `origin`) at the first part that is not known.
 OptionPlace locate(const Schema& schema, const std::string& key, const Origin& origin = {});
+
+/// Calls `visitor` for every value of a written struct (write_options) that is no table itself, and
+/// for every choice, also below choices whether or not their kind is the chosen one.
+void visit_options(const Schema& schema, Setting& written,
+                   const std::function<void(const Option&, Setting& value)>& visitor);
 
 }  // namespace shoal

@@ -50,9 +50,10 @@ struct FilePath {
 /// scenario; a parameter is written down nowhere else.
 struct Option {
   std::string name;
-  std::string unit;     ///< "" for a pure number
-  std::string meaning;  ///< one line
-  std::string type;     ///< "a number", "one of ..." ..., for messages
+  std::string unit;      ///< "" for a pure number
+  std::string meaning;   ///< one line
+  std::string type;      ///< "a number", "one of ..." ..., for messages
+  bool is_file = false;  ///< the value names a file
   Range range;
   const Schema* table = nullptr;         ///< set for a nested struct
   const RegistryBase* choice = nullptr;  ///< set for a member of a family

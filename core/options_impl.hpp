@@ -87,8 +87,11 @@ void Options<T>::text(std::string name, std::string T::*member, std::string mean
 
 template <class T>
 void Options<T>::file(std::string name, FilePath T::*member, std::string meaning) {
-  add({.name = std::move(name), .meaning = std::move(meaning), .type = "a file name"}, member,
-      detail::as_file, [](const FilePath& x) { return x.path.string(); });
+  add({.name = std::move(name),
+       .meaning = std::move(meaning),
+       .type = "a file name",
+       .is_file = true},
+      member, detail::as_file, [](const FilePath& x) { return x.path.string(); });
 }
 
 template <class T>

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <utility>
 
 #include "shoal/core/text.hpp"
 
@@ -157,6 +158,20 @@ void assign(Setting& root, std::string_view dotted_path, Setting value) {
     walked += (walked.empty() ? "" : ".") + std::string(part);
   }
   *place = std::move(value);
+}
+
+void overlay(Setting& place, Setting value) {
+  if (!place.is_table() || !value.is_table()) {
+    place = std::move(value);
+    return;
+  }
+  for (auto& [name, entry] : value.table()) {
+    if (Setting* known = place.find(name)) {
+      overlay(*known, std::move(entry));
+    } else {
+      place.table().emplace_back(name, std::move(entry));
+    }
+  }
 }
 
 std::string to_toml(const Setting& root) {

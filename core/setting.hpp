@@ -44,6 +44,10 @@ struct Setting {
 /// Throws InputError when the path runs through something that is not a table.
 void assign(Setting& root, std::string_view dotted_path, Setting value);
 
+/// Puts a value over another: of two tables the names that `value` has, at any depth, and the
+/// others stay; anything else is replaced.
+void overlay(Setting& place, Setting value);
+
 /// The tree as TOML text: values of a table first, sub-tables after them.
 std::string to_toml(const Setting& root);
 

@@ -74,20 +74,6 @@ std::optional<Setting> toml_value(const std::string& text, const Origin& origin)
   return std::nullopt;
 }
 
-void overlay(Setting& place, Setting value) {
-  if (!place.is_table() || !value.is_table()) {
-    place = std::move(value);
-    return;
-  }
-  for (auto& [name, entry] : value.table()) {
-    if (Setting* known = place.find(name)) {
-      overlay(*known, std::move(entry));
-    } else {
-      place.table().emplace_back(name, std::move(entry));
-    }
-  }
-}
-
 }  // namespace
 
 Setting read_toml(const std::filesystem::path& file) {
@@ -97,7 +83,10 @@ Setting read_toml(const std::filesystem::path& file) {
   }
   std::ifstream in(file, std::ios::binary);
   if (!in) throw InputError({name, 0}, "the file cannot be opened; is there such a file?");
-  const std::string content{std::istreambuf_iterator<char>(in), {}};
+  return parse_toml({std::istreambuf_iterator<char>(in), {}}, name);
+}
+
+Setting parse_toml(const std::string& content, const std::string& name) {
   const auto origin_of = [&](const toml::source_region& region) {
     return Origin{name, static_cast<int>(region.begin.line)};
   };

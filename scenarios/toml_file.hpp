@@ -14,6 +14,9 @@ namespace shoal::scenarios {
 /// option takes; and if the file cannot be opened.
 Setting read_toml(const std::filesystem::path& file);
 
+/// The same of a text; `name` stands for the file in messages.
+Setting parse_toml(const std::string& text, const std::string& name);
+
 /// Puts `key=value`, as given to `--set`, into a tree; a later one overrides an earlier one.
 ///
 /// The key is dotted (`behaviour.kind`). The value is read as TOML (`3`, `true`, `"text"`,

@@ -31,6 +31,15 @@ struct SolveArguments {
   std::string profiles;
 };
 
+struct SweepArguments {
+  std::string study;
+  std::string out;
+  int jobs = 1;
+  std::string shard;
+  std::int64_t replications = 0;  ///< 0: as the study says
+  bool fail_fast = false, rerun_changed = false, retry_failed = false;
+};
+
 // Each command prints to stdout, throws InputError or SystemError, and knows nothing of CLI11.
 void run(const RunArguments& arguments);
 void list(const std::string& family);
@@ -38,5 +47,6 @@ void describe(const std::string& name_or_key);
 void check(const std::vector<std::string>& files);
 void corpus(const CorpusArguments& arguments);
 void solve(const SolveArguments& arguments);
+void sweep(const SweepArguments& arguments);
 
 }  // namespace shoal::program

@@ -4,8 +4,10 @@
 #include <csignal>
 #include <exception>
 #include <new>
+#include <thread>
 
 #include "commands.hpp"
+#include "shoal/analysis/study/trial_outcome.hpp"
 #include "shoal/core/error.hpp"
 #include "shoal/solvers/solver.hpp"
 
@@ -58,6 +60,9 @@ int main(int argc, char** argv) {
   app.require_subcommand(1);
   std::function<void()> command;
 
+  const auto names_a_folder = [](const std::string& folder) {
+    return std::string(folder.empty() ? "names no folder" : "");
+  };
   shoal::program::RunArguments run;
   CLI::App* run_command = app.add_subcommand("run", "Run one trial of a scenario");
   run_command->add_option("scenario", run.scenario, "a scenario file, or its name in the library")
@@ -68,9 +73,7 @@ int main(int argc, char** argv) {
       ->take_all();
   run_command->add_option("--seed", run.seed, "seed of all random numbers (trial.seed)");
   run_command->add_option("--out", run.out, "folder for the results; default: out/SCENARIO")
-      ->check([](const std::string& folder) {
-        return std::string(folder.empty() ? "names no folder" : "");
-      });
+      ->check(names_a_folder);
   run_command
       ->add_option("--threads", run.threads,
                    "threads for large swarms; the numbers do not depend on it")
@@ -78,6 +81,33 @@ int main(int argc, char** argv) {
   run_command->add_option("--record-problems", run.problems,
                           "file for all problems that the behaviour poses, for shoal solve");
   run_command->callback([&] { command = [&] { shoal::program::run(run); }; });
+
+  shoal::program::SweepArguments sweep;
+  sweep.jobs = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
+  CLI::App* sweep_command =
+      app.add_subcommand("sweep", "Run the trials of a study that are not stored yet");
+  sweep_command->add_option("study", sweep.study, "a study file, or the name of one that ships")
+      ->required();
+  sweep_command
+      ->add_option("--jobs", sweep.jobs, "trials at a time; the numbers do not depend on it")
+      ->check(CLI::Range(1, 1024))
+      ->capture_default_str();
+  sweep_command->add_option("--out", sweep.out, "folder of the trials; default: out/STUDY")
+      ->check(names_a_folder);
+  sweep_command->add_option("--shard", sweep.shard,
+                            "I/N: only the I-th of N parts; see shoal merge");
+  sweep_command->add_option("--replications", sweep.replications, "instead of those of the study")
+      ->check(CLI::Range(1, 1000000000));
+  sweep_command->add_flag("--fail-fast", sweep.fail_fast,
+                          "begin no trial after the first that fails");
+  sweep_command->add_flag("--rerun-changed", sweep.rerun_changed,
+                          "run stored trials again if study, scenario or program have changed");
+  sweep_command->add_flag("--retry-failed", sweep.retry_failed, "run failed trials again");
+  sweep_command->callback([&] { command = [&] { shoal::program::sweep(sweep); }; });
+
+  CLI::App* worker_command = app.add_subcommand("trial-worker", "One trial for shoal sweep");
+  worker_command->group("");  // not for people
+  worker_command->callback([&] { command = [] { shoal::analysis::serve_as_worker(); }; });
 
   std::string family;
   CLI::App* list_command = app.add_subcommand("list", "List what there is");

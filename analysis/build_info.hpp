@@ -1,0 +1,21 @@
+#pragma once
+
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace shoal::analysis {
+
+/// How this program came to be, for manifests.
+struct BuildInfo {
+  std::string version;
+  std::string program;  ///< version and hash of all sources that numbers of trials depend on
+  std::string commit;   ///< of the source tree; "unknown" outside a repository
+  bool dirty = false;   ///< whether files differed from that commit when it was built
+  std::string compiler;
+  std::vector<std::pair<std::string, std::string>> libraries;  ///< name, version
+};
+
+const BuildInfo& build_info();
+
+}  // namespace shoal::analysis

@@ -1,0 +1,110 @@
+#include <fmt/core.h>
+#include <unistd.h>
+
+#include <filesystem>
+
+#include "commands.hpp"
+#include "shoal/analysis/study/study_files.hpp"
+#include "shoal/analysis/study/sweep.hpp"
+#include "shoal/core/text.hpp"
+#include "shoal/scenarios/toml_file.hpp"
+
+namespace shoal::program {
+namespace {
+
+namespace fs = std::filesystem;
+using analysis::SweepProgress;
+
+std::string duration_text(double seconds) {
+  const auto whole = static_cast<long>(seconds + 0.5);
+  if (whole < 100) return fmt::format("{} s", whole);
+  if (whole < 6000) return fmt::format("{} min", (whole + 30) / 60);
+  return fmt::format("{} h {:02} min", whole / 3600, whole % 3600 / 60);
+}
+
+/// A line that renews itself on a terminal; elsewhere a line a minute.
+class ProgressLine {
+ public:
+  explicit ProgressLine(bool terminal) : terminal_(terminal) {}
+
+  void show(const SweepProgress& p) {
+    const std::size_t to_run = p.planned - p.stored;
+    if (!terminal_ && p.elapsed_s < next_s_) return;
+    next_s_ += 60.0;
+    const double rate = p.elapsed_s > 0.0 ? static_cast<double>(p.done) / p.elapsed_s : 0.0;
+    std::string line =
+        fmt::format("{} of {} trials, {} failed", p.stored + p.done, p.planned, p.failed);
+    if (p.done > 0 && p.done < to_run) {
+      line += fmt::format(", {:.3g} a second, {} left", rate,
+                          duration_text(static_cast<double>(to_run - p.done) / rate));
+    }
+    fmt::print(stderr, "{}{}{}", terminal_ ? "\r" : "", line, terminal_ ? "\033[K" : "\n");
+    std::fflush(stderr);
+  }
+
+  void end() const {
+    if (terminal_) fmt::print(stderr, "\r\033[K");
+  }
+
+ private:
+  bool terminal_;
+  double next_s_ = 60.0;
+};
+
+/// `I/N`.
+void read_shard(const std::string& text, analysis::SweepSettings& settings) {
+  const auto parts = split(text, '/');
+  const auto whole = [&](std::size_t i) -> double {
+    const std::optional<double> number =
+        parts.size() == 2 ? parsed_number(parts[i]) : std::optional<double>{};
+    return number && *number >= 1.0 && *number <= 1e6 && *number == static_cast<int>(*number)
+               ? *number
+               : 0.0;
+  };
+  settings.shard = static_cast<int>(whole(0));
+  settings.shards = static_cast<int>(whole(1));
+  if (settings.shard < 1 || settings.shards < 1 || settings.shard > settings.shards) {
+    throw InputError("--shard " + text + " is no part; write I/N, as 2/8 for the second of eight");
+  }
+}
+
+analysis::StudyPlan plan_of(const SweepArguments& arguments) {
+  Setting root = scenarios::read_toml(analysis::find_study(arguments.study));
+  if (arguments.replications > 0) {
+    root.at_or_new("replications").value = arguments.replications;
+    if (Setting* groups = root.find("group"); groups && !groups->is_table()) {
+      for (Setting& group : std::get<Setting::List>(groups->value)) {
+        std::erase_if(group.table(),
+                      [](const auto& entry) { return entry.first == "replications"; });
+      }
+    }
+  }
+  return analysis::StudyPlan(analysis::read_study(root));
+}
+
+}  // namespace
+
+void sweep(const SweepArguments& arguments) {
+  const analysis::StudyPlan plan = plan_of(arguments);
+  const fs::path folder = arguments.out.empty() ? fs::path("out") / fs::path(arguments.study).stem()
+                                                : fs::path(arguments.out);
+  analysis::SweepSettings settings{.jobs = arguments.jobs,
+                                   .fail_fast = arguments.fail_fast,
+                                   .rerun_changed = arguments.rerun_changed,
+                                   .retry_failed = arguments.retry_failed,
+                                   .worker_program = fs::read_symlink("/proc/self/exe").string(),
+                                   .progress = {}};
+  if (!arguments.shard.empty()) read_shard(arguments.shard, settings);
+  ProgressLine line(::isatty(STDERR_FILENO) == 1);
+  settings.progress = [&](const SweepProgress& progress) { line.show(progress); };
+  const SweepProgress progress = analysis::sweep(plan, folder, settings);
+  line.end();
+
+  fmt::print("{}: {} of {} trials are stored, {} of them run now in {:.1f} s\n", folder.string(),
+             progress.stored + progress.done, progress.planned, progress.done, progress.elapsed_s);
+  if (progress.failed > 0) {
+    fmt::print("{} failed; the first: {}\n", progress.failed, progress.first_failure);
+  }
+}
+
+}  // namespace shoal::program

@@ -1,0 +1,141 @@
+#include "shoal/analysis/study/plan.hpp"
+
+#include <algorithm>
+#include <array>
+#include <set>
+
+#include "shoal/core/text.hpp"
+
+namespace shoal::analysis {
+namespace {
+
+// Columns that every stored trial has; a factor of that name would hide them.
+constexpr std::array<std::string_view, 11> reserved{
+    "study_group", "replication", "seed",   "status", "reason",     "trial_id",
+    "program",     "wall_s",      "metric", "time_s", sample_column};
+
+std::vector<CellSelection> exclusions(const Group& group) {
+  std::vector<CellSelection> all;
+  if (const auto* list = std::get_if<Setting::List>(&group.exclude.value)) {
+    for (const Setting& entry : *list) all.emplace_back(entry);
+  }
+  return all;
+}
+
+}  // namespace
+
+PlannedGroup::PlannedGroup(const Group& group, std::int64_t replications)
+    : group_(group), replications_(replications), sampled_(group.design.kind() != "grid") {
+  if (sampled_) {
+    columns_.emplace_back(sample_column);
+    units_.emplace_back();
+  }
+  std::vector<int> levels;
+  for (const Factor& factor : group.factors) {
+    axes_.emplace_back(factor);
+    only_.emplace_back(factor.only);
+    const std::string& name = axes_.back().name();
+    if (std::ranges::find(reserved, name) != reserved.end()) {
+      throw InputError(factor.origin, "a factor cannot be called \"" + name +
+                                          "\", as every stored trial has a column of that name; "
+                                          "give it another name");
+    }
+    if (std::ranges::find(columns_, name) != columns_.end()) {
+      throw InputError(factor.origin, "there are two factors \"" + name + "\"; name one of them");
+    }
+    for (const auto& [other, wanted] : only_.back().wanted()) {
+      if (other != name && std::ranges::find(columns_, other) != columns_.end()) continue;
+      throw InputError(
+          factor.origin,
+          "only names \"" + other + "\", which is no factor that stands before \"" + name + '"');
+    }
+    columns_.push_back(name);
+    units_.push_back(axes_.back().unit());
+    levels.push_back(axes_.back().levels());
+  }
+  design_ = group.design.make()->cells(levels);
+
+  const std::vector<CellSelection> excluded = exclusions(group);
+  for (const CellSelection& selection : excluded) {
+    for (const auto& [name, wanted] : selection.wanted()) {
+      if (std::ranges::find(columns_, name) != columns_.end()) continue;
+      throw InputError(selection.origin(), "exclude names \"" + name + "\", which is no factor" +
+                                               suggestion(name, columns_));
+    }
+  }
+  std::set<std::vector<std::string>> seen;
+  for (Eigen::Index row = 0; row < design_.rows(); ++row) {
+    std::vector<std::string> labels = labels_of(row);
+    const bool out = std::ranges::any_of(
+        excluded, [&](const CellSelection& s) { return s.holds(columns_, labels); });
+    // Levels of a factor that does not apply fall together into one cell.
+    if (out || !seen.insert(labels).second) continue;
+    rows_.push_back(row);
+    labels_.push_back(std::move(labels));
+  }
+  if (sampled_ && !excluded.empty()) {
+    throw InputError(group.origin,
+                     "a design that draws its cells takes no exclude: its analysis "
+                     "needs all of them");
+  }
+  if (rows_.empty()) throw InputError(group.origin, "every cell of the group is excluded");
+}
+
+std::vector<std::string> PlannedGroup::labels_of(Eigen::Index row) const {
+  std::vector<std::string> labels;
+  if (sampled_) labels.push_back(std::to_string(row + 1));
+  for (std::size_t f = 0; f < axes_.size(); ++f) {
+    const bool applies = only_[f].holds(std::span(columns_).first(labels.size()), labels);
+    labels.push_back(applies ? axes_[f].at(design_(row, static_cast<Eigen::Index>(f))).label
+                             : std::string(not_applied));
+  }
+  return labels;
+}
+
+std::vector<Axis::Place> PlannedGroup::changes(std::size_t cell) const {
+  std::vector<Axis::Place> changes;
+  const std::size_t first = sampled_ ? 1 : 0;
+  for (std::size_t f = 0; f < axes_.size(); ++f) {
+    if (labels_[cell][first + f] == not_applied) continue;
+    changes.push_back(axes_[f].at(design_(rows_[cell], static_cast<Eigen::Index>(f))));
+  }
+  return changes;
+}
+
+std::string PlannedGroup::title(std::size_t cell) const {
+  std::string title;
+  for (std::size_t i = 0; i < columns_.size(); ++i) {
+    if (labels_[cell][i] == not_applied) continue;
+    title += (title.empty() ? "" : ", ") + columns_[i] + " = " + labels_[cell][i];
+  }
+  return title;
+}
+
+std::string PlannedGroup::key(std::size_t cell, int replication) const {
+  std::string key = name();
+  for (std::size_t i = 0; i < columns_.size(); ++i) {
+    key += "|" + columns_[i] + "=" + labels_[cell][i];
+  }
+  return key + "|" + std::to_string(replication);
+}
+
+StudyPlan::StudyPlan(const Study& study) : study_(study) {
+  for (const Group& group : study.groups) {
+    const std::int64_t replications =
+        group.replications > 0 ? group.replications : study.replications;
+    groups_.emplace_back(group, replications);
+    for (std::size_t cell = 0; cell < groups_.back().cells(); ++cell) {
+      for (int k = 0; k < replications; ++k) trials_.push_back({groups_.size() - 1, cell, k});
+    }
+  }
+}
+
+std::string StudyPlan::title(const PlannedTrial& trial) const {
+  const PlannedGroup& group = groups_[trial.group];
+  std::string title = group.name();
+  const std::string cell = group.title(trial.cell);
+  if (!cell.empty()) title += (title.empty() ? "" : ", ") + cell;
+  return title + (title.empty() ? "" : ", ") + "seed " + std::to_string(seed(trial));
+}
+
+}  // namespace shoal::analysis

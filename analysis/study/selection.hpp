@@ -1,0 +1,40 @@
+#pragma once
+
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "shoal/core/setting.hpp"
+
+namespace shoal::analysis {
+
+/// Some cells of a study: those whose factors have one of the labels named.
+///
+/// Written as a table, `{ behaviour = "rigid_registration", period_s = [5, 15] }`.
+class CellSelection {
+ public:
+  CellSelection() = default;
+  /// Throws InputError unless the setting is such a table.
+  explicit CellSelection(const Setting& table);
+
+  bool empty() const { return wanted_.empty(); }
+  bool names(const std::string& factor) const;
+  const std::vector<std::pair<std::string, std::vector<std::string>>>& wanted() const {
+    return wanted_;
+  }
+  const Origin& origin() const { return origin_; }
+
+  /// Whether a cell belongs to it. `labels` has one label for each name; a factor that the
+  /// selection names and the cell does not have excludes the cell.
+  bool holds(std::span<const std::string> names, std::span<const std::string> labels) const;
+
+  /// `behaviour = rigid_registration, period_s = 5 or 15`.
+  std::string text() const;
+
+ private:
+  std::vector<std::pair<std::string, std::vector<std::string>>> wanted_;
+  Origin origin_;
+};
+
+}  // namespace shoal::analysis

@@ -1,0 +1,35 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "shoal/scenarios/scenario.hpp"
+#include "shoal/scenarios/trial_record.hpp"
+
+namespace shoal::analysis {
+
+/// What a trial of a study leaves behind.
+struct TrialOutcome {
+  std::string failure;  ///< why it failed; "" if it did not
+  double wall_s = 0.0;
+  std::vector<std::pair<std::string, std::optional<double>>> metrics;
+  std::vector<scenarios::Series> series;
+};
+
+/// Runs a scenario in this thread and keeps its measures, and the series of these names. What goes
+/// wrong is part of the outcome.
+TrialOutcome trial_outcome(const scenarios::Scenario& scenario,
+                           const std::vector<std::string>& series);
+
+/// The same in a process of its own, for solvers that do not run in several threads of one process.
+/// `program` is a shoal: it is called with `trial-worker`. Throws SystemError if it cannot be run.
+TrialOutcome trial_outcome_of_worker(const std::string& program,
+                                     const scenarios::Scenario& scenario,
+                                     const std::vector<std::string>& series);
+
+/// The other end: reads a request from stdin and writes the outcome to stdout.
+void serve_as_worker();
+
+}  // namespace shoal::analysis
