@@ -58,6 +58,7 @@ AlignedSlots::AlignedSlots(std::span<const Eigen::Vector2d> slots, const Eigen::
 }
 
 void RotationSearch::set_points(std::span<const Eigen::Vector2d> points) {
+  turned_step_deg_ = 0.0;
   own_order_.assign(points.begin(), points.end());
   points_.clear();
   for (const Eigen::Vector2d& p : points) points_.push_back({p.x(), p.y(), p.norm()});
@@ -86,20 +87,18 @@ TurnedMatch RotationSearch::search(const Turns& turns, const AlignedSlots& slots
   const int rows = static_cast<int>(points_.size());
   if (rows > slots.size()) throw std::invalid_argument("rotation search: more points than slots");
 
-  glance_.resize(at(turns.count()));
-  for (int turn = 0; turn < turns.count(); ++turn) {
-    glance_[at(turn)] = glance(slots, turns.cosine(turn), turns.sine(turn));
-  }
+  turn_few(turns);
+  glance(slots, limit);
+  // Round the circle from the most promising turn, so that the prices of one turn fit the next.
+  Eigen::Index first = 0;
+  if (glance_.minCoeff(&first) > limit) return {};
   cost_of_turn_.assign(at(turns.count()), infinity);
   costs_.resize(at(rows) * at(slots.size()));
   assignment_.reset(rows, slots.size());
-
-  // Round the circle from the most promising turn, so that the prices of one turn fit the next.
-  const int first = static_cast<int>(std::ranges::min_element(glance_) - glance_.begin());
   double least = infinity;
   for (int step = 0; step < turns.count(); ++step) {
-    const int turn = (first + step) % turns.count();
-    if (glance_[at(turn)] > limit) continue;
+    const int turn = (static_cast<int>(first) + step) % turns.count();
+    if (glance_[turn] > limit) continue;
     if (!fill_costs(slots, turns.cosine(turn), turns.sine(turn), limit)) continue;
     if (assignment_.solve_similar(costs_, limit) != AssignmentStatus::optimal) continue;
     cost_of_turn_[at(turn)] = assignment_.cost();
@@ -131,17 +130,40 @@ void RotationSearch::match(const Turns& turns, const AlignedSlots& slots, int tu
   }
 }
 
-// A lower bound for little work: the nearest slots of the farthest points.
-double RotationSearch::glance(const AlignedSlots& slots, double cosine, double sine) const {
+void RotationSearch::turn_few(const Turns& turns) {
+  if (turned_step_deg_ == turns.step_deg()) return;
   constexpr std::size_t few = 4;
-  double sum = 0.0;
-  for (std::size_t i = 0; i < std::min(few, points_.size()); ++i) {
-    const Point& p = points_[i];
-    const double x = cosine * p.x - sine * p.y;
-    const double y = sine * p.x + cosine * p.y;
-    sum += std::sqrt(((slots.x - x).square() + (slots.y - y).square()).minCoeff());
+  const auto count = static_cast<Eigen::Index>(std::min(few, points_.size()));
+  turned_x_.resize(turns.count(), count);
+  turned_y_.resize(turns.count(), count);
+  for (Eigen::Index i = 0; i < count; ++i) {
+    const Point& p = points_[static_cast<std::size_t>(i)];
+    for (int turn = 0; turn < turns.count(); ++turn) {
+      const double cosine = turns.cosine(turn), sine = turns.sine(turn);
+      turned_x_(turn, i) = static_cast<float>(cosine * p.x - sine * p.y);
+      turned_y_(turn, i) = static_cast<float>(sine * p.x + cosine * p.y);
+    }
   }
-  return sum;
+  turned_step_deg_ = turns.step_deg();
+}
+
+// A lower bound for little work: the nearest slots of the farthest points, all turns at once, until
+// every turn costs too much.
+void RotationSearch::glance(const AlignedSlots& slots, double limit) {
+  glance_.setZero(turned_x_.rows());
+  if (points_.empty()) return;
+  // What the rounding of coordinates to floats may add to a distance.
+  const double reach = slots.radius[slots.radius.size() - 1] + points_.front().radius;
+  const auto rounding = static_cast<float>(8.0 * std::numeric_limits<float>::epsilon() * reach);
+  nearest_.resize(turned_x_.rows());
+  for (Eigen::Index i = 0; i < turned_x_.cols() && glance_.minCoeff() <= limit; ++i) {
+    nearest_.setConstant(std::numeric_limits<float>::max());
+    for (Eigen::Index j = 0; j < slots.size(); ++j) {
+      const auto x = static_cast<float>(slots.x[j]), y = static_cast<float>(slots.y[j]);
+      nearest_ = nearest_.min((turned_x_.col(i) - x).square() + (turned_y_.col(i) - y).square());
+    }
+    glance_ += nearest_.sqrt() - rounding;
+  }
 }
 
 // Gives up as soon as the prices of the last assignment prove that this one costs more.

@@ -81,12 +81,18 @@ class RotationSearch {
     double x, y, radius;
   };
 
-  double glance(const AlignedSlots& slots, double cosine, double sine) const;
+  void turn_few(const Turns& turns);
+  void glance(const AlignedSlots& slots, double limit);
   bool fill_costs(const AlignedSlots& slots, double cosine, double sine, double limit);
 
   std::vector<Point> points_;  // farthest first: they tell turns apart
   std::vector<Eigen::Vector2d> own_order_;
-  std::vector<double> costs_, glance_, cost_of_turn_;
+  std::vector<double> costs_, cost_of_turn_;
+  // The farthest points at every turn, and what the nearest slots of theirs are away: floats do, as
+  // they only rule out.
+  Eigen::ArrayXXf turned_x_, turned_y_;  // turns x points
+  Eigen::ArrayXf nearest_, glance_;      // by turn
+  double turned_step_deg_ = 0.0;         // 0: not turned yet
   AssignmentSolver assignment_;
 };
 

@@ -40,6 +40,9 @@ struct Workspace {
   std::vector<Visit> visits;
   std::vector<TurnedMatch> found;
   std::vector<int> slot_of_point;
+  // What won last. Whoever asks again has hardly moved: it bounds the search, whatever it is.
+  std::size_t last_subset = 0;
+  int last_turn = 0;
 };
 
 bool finite(std::span<const Eigen::Vector2d> points) {
@@ -92,7 +95,9 @@ class Sampled final : public Matcher {
       return std::tie(a.bound_below, a.subset) < std::tie(b.bound_below, b.subset);
     });
     work.found.assign(subsets.size(), {});
-    double least = std::numeric_limits<double>::infinity();
+    work.search.match(work.turns, subsets[std::min(work.last_subset, subsets.size() - 1)].aligned,
+                      std::min(work.last_turn, work.turns.count() - 1));
+    double least = work.search.cost();
     for (const auto& [subset, bound_below] : work.visits) {
       // One tie between subsets and one between turns.
       const double limit = least + 2.0 * cost_tie_m;
@@ -102,6 +107,8 @@ class Sampled final : public Matcher {
     }
     std::size_t winner = 0;
     while (work.found[winner].cost > least + cost_tie_m) ++winner;
+    work.last_subset = winner;
+    work.last_turn = work.found[winner].turn;
     return winner;
   }
 
