@@ -5,6 +5,8 @@
 #include <numeric>
 #include <stdexcept>
 
+#include "shoal/core/text.hpp"
+
 namespace shoal::analysis {
 
 std::optional<double> Results::at(std::string_view name) const {
@@ -17,6 +19,63 @@ std::optional<double> Results::at(std::string_view name) const {
 double Measure::log_interval_s(const scenarios::World& world) {
   const double tick = world.scenario().trial.tick_s;
   return tick * std::max(1.0, std::round(5.0 / tick));
+}
+
+double Measure::series_interval_s(const scenarios::World& world) {
+  const double every_s = world.scenario().quality.every_s;
+  return every_s > 0.0 ? every_s : 6.0 * log_interval_s(world);
+}
+
+bool SeriesGrid::due(double time_s) {
+  // Times are whole ticks: half a millisecond is less than any.
+  constexpr double rounding_s = 5e-4;
+  const double next_s = every_s_ * static_cast<double>(time_s_.size());
+  if (time_s < next_s - rounding_s) return false;
+  time_s_.push_back(time_s);
+  return true;
+}
+
+namespace {
+
+std::vector<Quantity> gathered(std::vector<Quantity> (Measure::*list)() const) {
+  std::vector<Quantity> all;
+  const auto& registry = Registry<Measure>::instance();
+  for (const MemberInfo& member : registry.members()) {
+    const auto measure = registry.make(member.name, Setting{}, member.name);
+    for (Quantity& quantity : ((*measure).*list)()) all.push_back(std::move(quantity));
+  }
+  return all;
+}
+
+const Quantity& named(const std::vector<Quantity>& known, const std::string& name,
+                      const std::string& what, const Origin& origin) {
+  std::vector<std::string> names;
+  for (const Quantity& quantity : known) {
+    if (quantity.name == name) return quantity;
+    names.push_back(quantity.name);
+  }
+  throw InputError(origin,
+                   "no measure yields a " + what + " \"" + name + '"' + suggestion(name, names));
+}
+
+}  // namespace
+
+const std::vector<Quantity>& known_values() {
+  static const std::vector<Quantity> known = gathered(&Measure::values);
+  return known;
+}
+
+const std::vector<Quantity>& known_series() {
+  static const std::vector<Quantity> known = gathered(&Measure::series);
+  return known;
+}
+
+const Quantity& known_value(const std::string& name, const Origin& origin) {
+  return named(known_values(), name, "value", origin);
+}
+
+const Quantity& known_series(const std::string& name, const Origin& origin) {
+  return named(known_series(), name, "series", origin);
 }
 
 void survivors(const scenarios::World& world, std::vector<Eigen::Vector2d>& positions,

@@ -11,6 +11,13 @@
 
 namespace shoal::analysis {
 
+/// A number that measures yield: its name ends with its unit.
+struct Quantity {
+  std::string name;
+  std::string unit;  ///< "" for a pure number
+  std::string meaning;
+};
+
 /// What the measures of one trial say. Names carry their units; a measure without a value (never
 /// reached, not defined for this trial) is null.
 struct Results {
@@ -19,6 +26,10 @@ struct Results {
 
   void add(std::string name, std::optional<double> value) {
     values.emplace_back(std::move(name), value);
+  }
+  /// Numbers against time; unit and meaning are those that the measure declares.
+  void add_series(std::string name, std::vector<double> time_s, std::vector<double> numbers) {
+    series.push_back({std::move(name), "", "", std::move(time_s), std::move(numbers)});
   }
   /// Throws std::out_of_range if no measure has that name.
   std::optional<double> at(std::string_view name) const;
@@ -29,6 +40,10 @@ class Measure : public scenarios::Observer {
  public:
   static constexpr const char* family = "measure";
   static constexpr const char* family_meaning = "says how well a trial went";
+
+  /// What finish() adds, each time and in this order: values, and series against time.
+  virtual std::vector<Quantity> values() const = 0;
+  virtual std::vector<Quantity> series() const { return {}; }
 
   /// Called once before the trial runs. Throws InputError if the scenario asks too much.
   virtual void begin(const scenarios::World& world) { (void)world; }
@@ -44,8 +59,33 @@ class Measure : public scenarios::Observer {
  protected:
   /// The multiple of the tick nearest to 5 s.
   static double log_interval_s(const scenarios::World& world);
+  /// The instants of all series: quality.every_s, or about 30 s where the quality is not measured.
+  static double series_interval_s(const scenarios::World& world);
 
   double every_s_ = 0.0;
+};
+
+/// All values and all series that measures yield, in the order of their measures.
+const std::vector<Quantity>& known_values();
+const std::vector<Quantity>& known_series();
+/// Throws InputError (at `origin`), with the likely name, if no measure yields it.
+const Quantity& known_value(const std::string& name, const Origin& origin = {});
+const Quantity& known_series(const std::string& name, const Origin& origin = {});
+
+/// Where "settled" begins: the last 60 % of the mission.
+inline constexpr double settled_from = 0.4;
+
+/// Numbers at regular instants, gathered by a measure that may look more often.
+class SeriesGrid {
+ public:
+  void begin(double every_s) { every_s_ = every_s; }
+  /// Whether an instant of the grid has come; then `time_s` is one of it.
+  bool due(double time_s);
+  const std::vector<double>& time_s() const { return time_s_; }
+
+ private:
+  double every_s_ = 0.0;
+  std::vector<double> time_s_;
 };
 
 /// Mean, least and greatest of a number over the vehicles that are left.

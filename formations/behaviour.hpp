@@ -2,9 +2,11 @@
 
 #include <Eigen/Core>
 #include <cstdint>
+#include <optional>
 #include <string_view>
 
 #include "shoal/core/registry.hpp"
+#include "shoal/core/transform.hpp"
 #include "shoal/formations/neighbourhood.hpp"
 #include "shoal/formations/plan.hpp"
 #include "shoal/formations/posed_problems.hpp"
@@ -27,12 +29,18 @@ struct Target {
   Eigen::Vector2d position = Eigen::Vector2d::Zero();  ///< metres, own frame
   Reason reason = Reason::placed;
   double cost = 0.0;  ///< of the solved problem, in its own unit
+  /// The plan as laid onto what was heard, if the behaviour lays one.
+  std::optional<Transform2> T_own_plan = std::nullopt;
 
   bool held() const { return reason != Reason::placed; }
   static Target at(const Eigen::Vector2d& position, double cost) {
     return {position, Reason::placed, cost};
   }
-  static Target hold(Reason why) { return {Eigen::Vector2d::Zero(), why, 0.0}; }
+  /// At a slot (metres, frame of the plan) of a plan that was laid onto the neighbours.
+  static Target at_slot(const Transform2& T_own_plan, const Eigen::Vector2d& slot, double cost) {
+    return {T_own_plan * slot, Reason::placed, cost, T_own_plan};
+  }
+  static Target hold(Reason why) { return {Eigen::Vector2d::Zero(), why}; }
 };
 
 /// Turns what a vehicle heard into a problem, has it solved, and returns the target.

@@ -21,6 +21,13 @@ class Cohesion final : public Measure {
  public:
   static void declare(Options<Cohesion>&) {}
 
+  std::vector<Quantity> values() const override {
+    return {
+        {"min_separation_m", "m", "closest that two vehicles came"},
+        {"fragments", "", "parts of the swarm out of acoustic range of one another, at the end"},
+        {"lost_vehicles", "", "vehicles lost"}};
+  }
+
   void begin(const scenarios::World& world) override { every_s_ = log_interval_s(world); }
 
   void observe(const scenarios::World& world) override {
@@ -106,7 +113,8 @@ class Cohesion final : public Measure {
   std::vector<double> x_, y_;
 };
 
-const Enrol<Measure, Cohesion> enrolled{"cohesion", "min_separation_m, fragments, lost_vehicles"};
+const Enrol<Measure, Cohesion> enrolled{
+    "cohesion", "does the swarm hold together, and how close do vehicles come"};
 
 }  // namespace
 }  // namespace shoal::analysis

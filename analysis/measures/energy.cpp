@@ -3,15 +3,50 @@
 namespace shoal::analysis {
 namespace {
 
+constexpr double joules_per_wh = 3600.0;
+
 /// Energy per vehicle since mission start (Rypkema 2015, sec. 4.1.1), over the vehicles that are
-/// left at the end.
+/// left.
 class EnergyMeasure final : public Measure {
  public:
   static void declare(Options<EnergyMeasure>&) {}
 
+  std::vector<Quantity> values() const override {
+    return {{"energy_mean_wh", "Wh", "energy spent, mean over vehicles"},
+            {"energy_min_wh", "Wh", "energy of the vehicle that spent least"},
+            {"energy_max_wh", "Wh", "energy of the vehicle that spent most"},
+            {"energy_propulsion_mean_wh", "Wh", "energy for propulsion, mean over vehicles"},
+            {"energy_hotel_mean_wh", "Wh", "energy for the hotel load, mean over vehicles"},
+            {"energy_comms_mean_wh", "Wh", "energy for pings, mean over vehicles"},
+            {"energy_spread_wh", "Wh", "energy_max_wh - energy_min_wh"},
+            {"energy_rate_w", "W", "mean power in the last 60 % of the mission"}};
+  }
+
+  std::vector<Quantity> series() const override {
+    return {{"energy_mean_wh", "Wh", "energy spent, mean over vehicles left"},
+            {"energy_min_wh", "Wh", "energy of the vehicle that spent least"},
+            {"energy_max_wh", "Wh", "energy of the vehicle that spent most"}};
+  }
+
+  void begin(const scenarios::World& world) override {
+    every_s_ = series_interval_s(world);
+    settled_s_ = settled_from * world.scenario().trial.duration_s;
+  }
+
+  void observe(const scenarios::World& world) override {
+    const auto total = over_survivors(world, [&](std::size_t i) { return energy_wh(world, i); });
+    if (!total) return;
+    time_s_.push_back(world.time_s());
+    mean_wh_.push_back(total->mean);
+    min_wh_.push_back(total->least);
+    max_wh_.push_back(total->greatest);
+    if (!settled_wh_.empty() || world.time_s() < settled_s_) return;
+    settled_s_ = world.time_s();
+    for (std::size_t i = 0; i < world.size(); ++i) settled_wh_.push_back(energy_wh(world, i));
+  }
+
   void finish(const scenarios::World& w, Results& results) const override {
-    const auto total = over_survivors(
-        w, [&](std::size_t i) { return w.propulsion_wh(i) + w.hotel_wh(i) + w.comms_wh(i); });
+    const auto total = over_survivors(w, [&](std::size_t i) { return energy_wh(w, i); });
     const auto mean = [&](auto value) -> std::optional<double> {
       const auto spread = over_survivors(w, value);
       return spread ? std::optional(spread->mean) : std::nullopt;
@@ -23,11 +58,36 @@ class EnergyMeasure final : public Measure {
                 mean([&](std::size_t i) { return w.propulsion_wh(i); }));
     results.add("energy_hotel_mean_wh", mean([&](std::size_t i) { return w.hotel_wh(i); }));
     results.add("energy_comms_mean_wh", mean([&](std::size_t i) { return w.comms_wh(i); }));
+    results.add("energy_spread_wh",
+                total ? std::optional(total->greatest - total->least) : std::nullopt);
+    results.add("energy_rate_w", settled_rate_w(w));
+    results.add_series("energy_mean_wh", time_s_, mean_wh_);
+    results.add_series("energy_min_wh", time_s_, min_wh_);
+    results.add_series("energy_max_wh", time_s_, max_wh_);
   }
+
+ private:
+  static double energy_wh(const scenarios::World& w, std::size_t i) {
+    return w.propulsion_wh(i) + w.hotel_wh(i) + w.comms_wh(i);
+  }
+
+  // Of the same vehicles at both ends, so that losses are no change of power.
+  std::optional<double> settled_rate_w(const scenarios::World& w) const {
+    const double lasted_s = w.time_s() - settled_s_;
+    if (settled_wh_.empty() || lasted_s <= 0.0) return std::nullopt;
+    const auto spent =
+        over_survivors(w, [&](std::size_t i) { return energy_wh(w, i) - settled_wh_[i]; });
+    if (!spent) return std::nullopt;
+    return spent->mean * joules_per_wh / lasted_s;
+  }
+
+  double settled_s_ = 0.0;
+  std::vector<double> time_s_, mean_wh_, min_wh_, max_wh_;
+  std::vector<double> settled_wh_;  // of every vehicle
 };
 
-const Enrol<Measure, EnergyMeasure> enrolled{
-    "energy", "energy_{mean,min,max}_wh, energy_{propulsion,hotel,comms}_mean_wh per vehicle"};
+const Enrol<Measure, EnergyMeasure> enrolled{"energy",
+                                             "energy spent by the vehicles that are left"};
 
 }  // namespace
 }  // namespace shoal::analysis

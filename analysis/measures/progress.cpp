@@ -11,7 +11,21 @@ class Progress final : public Measure {
  public:
   static void declare(Options<Progress>&) {}
 
-  void begin(const scenarios::World& world) override { every_s_ = log_interval_s(world); }
+  std::vector<Quantity> values() const override {
+    return {{"centroid_path_m", "m", "length of the track of the swarm's centroid"},
+            {"centroid_displacement_m", "m", "how far the centroid came"},
+            {"efficiency_m_per_wh", "m/Wh", "path of the centroid / mean energy"}};
+  }
+
+  std::vector<Quantity> series() const override {
+    return {{"centroid_path_m", "m", "length of the track of the swarm's centroid"},
+            {"efficiency_m_per_wh", "m/Wh", "path of the centroid / mean energy, so far"}};
+  }
+
+  void begin(const scenarios::World& world) override {
+    every_s_ = log_interval_s(world);
+    grid_.begin(series_interval_s(world));
+  }
 
   void observe(const scenarios::World& world) override {
     std::vector<int> slots = std::move(slots_);
@@ -30,19 +44,32 @@ class Progress final : public Measure {
     }
     slots_ = std::move(slots);
     positions_ = std::move(positions);
+    if (started_ && grid_.due(world.time_s())) {
+      path_at_m_.push_back(path_m_);
+      efficiency_.push_back(path_m_ / energy_mean_wh(world).value_or(1.0));
+    }
   }
 
   void finish(const scenarios::World& w, Results& results) const override {
-    const auto energy = over_survivors(
-        w, [&](std::size_t i) { return w.propulsion_wh(i) + w.hotel_wh(i) + w.comms_wh(i); });
+    const std::optional<double> energy_wh = energy_mean_wh(w);
     results.add("centroid_path_m", path_m_);
     results.add("centroid_displacement_m", displacement_.norm());
-    results.add("efficiency_m_per_wh", energy && energy->mean > 0.0
-                                           ? std::optional(path_m_ / energy->mean)
-                                           : std::nullopt);
+    results.add("efficiency_m_per_wh",
+                energy_wh ? std::optional(path_m_ / *energy_wh) : std::nullopt);
+    results.add_series("centroid_path_m", grid_.time_s(), path_at_m_);
+    results.add_series("efficiency_m_per_wh", grid_.time_s(), efficiency_);
   }
 
  private:
+  /// Nothing as long as no energy was spent.
+  static std::optional<double> energy_mean_wh(const scenarios::World& w) {
+    const auto energy = over_survivors(
+        w, [&](std::size_t i) { return w.propulsion_wh(i) + w.hotel_wh(i) + w.comms_wh(i); });
+    return energy && energy->mean > 0.0 ? std::optional(energy->mean) : std::nullopt;
+  }
+
+  SeriesGrid grid_;
+  std::vector<double> path_at_m_, efficiency_;
   bool started_ = false;
   double path_m_ = 0.0;
   Eigen::Vector2d centroid_ = Eigen::Vector2d::Zero();
@@ -51,8 +78,8 @@ class Progress final : public Measure {
   std::vector<int> slots_;
 };
 
-const Enrol<Measure, Progress> enrolled{
-    "progress", "centroid_path_m, centroid_displacement_m, efficiency_m_per_wh (path / energy)"};
+const Enrol<Measure, Progress> enrolled{"progress",
+                                        "how far the swarm came, and for how much energy"};
 
 }  // namespace
 }  // namespace shoal::analysis

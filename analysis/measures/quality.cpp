@@ -2,6 +2,7 @@
 
 #include "shoal/analysis/measure.hpp"
 #include "shoal/analysis/measures/formation_quality.hpp"
+#include "shoal/analysis/measures/quality_history.hpp"
 
 namespace shoal::analysis {
 namespace {
@@ -9,7 +10,7 @@ namespace {
 // The assignment takes time that grows with the third power of the number of vehicles.
 constexpr std::size_t most_vehicles = 500;
 constexpr double good_m = 20.0;
-constexpr double settled_from = 0.4;  // share of the mission: its last 60 % are "settled"
+constexpr double last_from = 0.9;
 
 /// The formation quality against time (Rypkema 2015, sec. 4.3), with the plan padded by layers of
 /// lattice positions. Vehicles that are lost no longer count.
@@ -32,32 +33,47 @@ class Quality final : public Measure {
         options.delta_theta_deg);
   }
 
+  std::vector<Quantity> values() const override {
+    return {
+        {"quality_final_m", "m", "formation quality at the end of the mission"},
+        {"quality_settled_m", "m", "mean quality in the last 60 % of the mission"},
+        {"time_to_quality_20m_s", "s", "when the quality was first below 20 m"},
+        {"quality_worst_m", "m", "greatest quality in the last 60 % of the mission"},
+        {"quality_last_m", "m", "mean quality in the last 10 % of the mission"},
+        {"quality_trend_m_per_h", "m/h", "slope of the quality in the last 60 % of the mission"},
+        {"quality_oscillation_m", "m",
+         "rms of the formed swarm's quality about its mean over 10 minutes"},
+        {"energy_to_quality_20m_wh", "Wh", "mean energy spent until the quality was below 20 m"}};
+  }
+
+  std::vector<Quantity> series() const override {
+    return {{"quality", "m", "formation quality (Rypkema 2015, sec. 4.3)"}};
+  }
+
   void observe(const scenarios::World& world) override {
     survivors(world, positions_, slots_);
     if (positions_.empty()) return;
     time_s_.push_back(world.time_s());
     quality_m_.push_back(metric_->of(positions_));
+    if (reached_s_ || quality_m_.back() >= good_m) return;
+    reached_s_ = world.time_s();
+    reached_wh_ = over_survivors(world, [&](std::size_t i) {
+                    return world.propulsion_wh(i) + world.hotel_wh(i) + world.comms_wh(i);
+                  })->mean;
   }
 
   void finish(const scenarios::World& world, Results& results) const override {
-    std::optional<double> final_m, settled_m, reached_s;
-    double sum = 0.0;
-    int settled = 0;
-    for (std::size_t k = 0; k < time_s_.size(); ++k) {
-      final_m = quality_m_[k];
-      if (!reached_s && quality_m_[k] < good_m) reached_s = time_s_[k];
-      if (time_s_[k] < settled_from * world.time_s()) continue;
-      sum += quality_m_[k];
-      ++settled;
-    }
-    if (settled > 0) settled_m = sum / settled;
-    results.add("quality_final_m", final_m);
-    results.add("quality_settled_m", settled_m);
-    results.add("time_to_quality_20m_s", reached_s);
-    if (every_s_ > 0.0) {
-      results.series.push_back(
-          {"quality", "m", "formation quality (Rypkema 2015, sec. 4.3)", time_s_, quality_m_});
-    }
+    const QualityHistory history(time_s_, quality_m_, world.time_s());
+    results.add("quality_final_m",
+                quality_m_.empty() ? std::nullopt : std::optional(quality_m_.back()));
+    results.add("quality_settled_m", history.mean_m(settled_from));
+    results.add("time_to_quality_20m_s", reached_s_);
+    results.add("quality_worst_m", history.worst_m(settled_from));
+    results.add("quality_last_m", history.mean_m(last_from));
+    results.add("quality_trend_m_per_h", history.trend_m_per_h(settled_from));
+    results.add("quality_oscillation_m", history.oscillation_m());
+    results.add("energy_to_quality_20m_wh", reached_wh_);
+    results.add_series("quality", time_s_, quality_m_);
   }
 
  private:
@@ -65,10 +81,11 @@ class Quality final : public Measure {
   std::vector<Eigen::Vector2d> positions_;
   std::vector<int> slots_;
   std::vector<double> time_s_, quality_m_;
+  std::optional<double> reached_s_, reached_wh_;
 };
 
 const Enrol<Measure, Quality> enrolled{
-    "quality", "quality_{final,settled}_m (last 60 % of the mission), time_to_quality_20m_s"};
+    "quality", "the formation quality: how far vehicles are from the plan laid onto them"};
 
 }  // namespace
 }  // namespace shoal::analysis

@@ -13,6 +13,10 @@ class Rotation final : public Measure {
  public:
   static void declare(Options<Rotation>&) {}
 
+  std::vector<Quantity> values() const override {
+    return {{"formation_rotation_deg", "deg", "how far the formation has turned"}};
+  }
+
   void begin(const scenarios::World& world) override { every_s_ = log_interval_s(world); }
 
   void observe(const scenarios::World& world) override {

@@ -51,7 +51,7 @@ class AssignmentRegistration final : public Behaviour {
     for (const solvers::PointPair& p : pairs) registration.add(p.from, p.to, p.weight);
     const solvers::RegistrationSolution fit = registration.solve();
     if (fit.status != solvers::RegistrationStatus::fitted) return Target::hold(Reason::degenerate);
-    return Target::at(fit.T_to_from * plan.slot(match.slot_of_point[0]), match.cost);
+    return Target::at_slot(fit.T_to_from, plan.slot(match.slot_of_point[0]), match.cost);
   }
 
   void pose(const Neighbourhood& seen, const Plan& plan, ProblemViewer& viewer) const override {

@@ -49,7 +49,7 @@ class RigidRegistration final : public Behaviour {
     switch (fit.status) {
       case solvers::RegistrationStatus::fitted:
       case solvers::RegistrationStatus::not_converged:
-        return Target::at(fit.T_to_from * plan.slot(seen.own_slot), fit.cost);
+        return Target::at_slot(fit.T_to_from, plan.slot(seen.own_slot), fit.cost);
       case solvers::RegistrationStatus::diverged:
         return Target::hold(Reason::solver_failed);
       case solvers::RegistrationStatus::translation_only:
