@@ -1,0 +1,220 @@
+#include "shoal/analysis/study/claim.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "shoal/analysis/measure.hpp"
+#include "shoal/analysis/statistics/intervals.hpp"
+#include "shoal/analysis/statistics/power.hpp"
+#include "shoal/core/text.hpp"
+
+namespace shoal::analysis {
+namespace {
+
+constexpr double level = 0.95;
+constexpr double power = 0.8;
+
+struct ClaimFile {
+  std::vector<Claim> claims;
+
+  static constexpr const char* noun = "a file of claims";
+  static void declare(Options<ClaimFile>& o) {
+    o.tables("claim", &ClaimFile::claims, "statements on the trials of a study");
+  }
+};
+
+std::vector<std::size_t> groups_of(const Claim& claim, const StudyPlan& plan) {
+  std::vector<std::string> known;
+  for (const PlannedGroup& group : plan.groups()) known.push_back(group.name());
+  if (claim.groups.empty()) {
+    if (known.size() == 1) return {0};
+    throw InputError(claim.origin, "the study has several groups; say which the claim is about");
+  }
+  std::vector<std::size_t> places;
+  for (const std::string& name : claim.groups) {
+    const auto found = std::ranges::find(known, name);
+    if (found == known.end()) {
+      throw InputError(claim.origin, "the study has no group \"" + name + '"' + suggestion(name, known));
+    }
+    places.push_back(static_cast<std::size_t>(found - known.begin()));
+  }
+  return places;
+}
+
+void require_columns(const CellSelection& selection, const PlannedGroup& group,
+                     const Origin& origin) {
+  for (const auto& [name, labels] : selection.wanted()) {
+    if (std::ranges::find(group.columns(), name) != group.columns().end()) continue;
+    throw InputError(origin, "the group " + group.name() + " has no factor \"" + name + '"' +
+                                 suggestion(name, group.columns()));
+  }
+}
+
+/// The cells that `where` leaves, parted by the factors that the claim does not compare.
+std::vector<ClaimScope> scopes(const Claim& claim, const Question& question,
+                               const StudyResults& results, const ClaimTest& test) {
+  const CellSelection where(claim.where);
+  const std::vector<std::string> compared = test.compared();
+  std::vector<ClaimScope> scopes;
+  const std::vector<std::size_t> groups = groups_of(claim, results.plan());
+  for (const std::size_t g : groups) {
+    const PlannedGroup& group = results.plan().groups()[g];
+    require_columns(where, group, claim.origin);
+    std::map<std::string, std::size_t> known;  // title of the fixed factors -> scope
+    for (std::size_t cell = 0; cell < group.cells(); ++cell) {
+      if (!where.holds(group.columns(), group.labels(cell))) continue;
+      std::string title = groups.size() > 1 ? group.name() : "";
+      for (std::size_t i = 0; i < group.columns().size(); ++i) {
+        const std::string& column = group.columns()[i];
+        if (std::ranges::find(compared, column) != compared.end() || where.names(column)) continue;
+        title += (title.empty() ? "" : ", ") + group.labels(cell)[i];
+      }
+      const auto [place, fresh] = known.emplace(title, scopes.size());
+      if (fresh) scopes.push_back({results, question, g, {}, title});
+      scopes[place->second].cells.push_back(cell);
+    }
+  }
+  if (scopes.empty()) throw InputError(claim.origin, "no cell of the study is as `where` says");
+  return scopes;
+}
+
+ContrastResult judged(const Contrast& contrast, double corrected_level) {
+  ContrastResult result{contrast.title, static_cast<int>(contrast.numbers.size()), {}, {}, {}, {}};
+  if (contrast.numbers.empty()) return result;
+  result.mean = statistics::mean(contrast.numbers);
+  const auto interval = statistics::t_interval(contrast.numbers, level);
+  const auto wide = statistics::t_interval(contrast.numbers, corrected_level);
+  if (!interval || !wide) return result;
+  result.low = interval->low;
+  result.high = interval->high;
+  const bool inside = (!contrast.low || interval->low > *contrast.low) &&
+                      (!contrast.high || interval->high < *contrast.high);
+  const bool outside = (contrast.low && wide->high < *contrast.low) ||
+                       (contrast.high && wide->low > *contrast.high);
+  if (inside) result.verdict = Verdict::reproduced;
+  if (outside) result.verdict = Verdict::contradicted;
+  return result;
+}
+
+/// Replications that would tell the mean of a contrast from the nearer end of what is claimed.
+std::optional<int> needed(const Contrast& contrast) {
+  if (contrast.numbers.size() < 2) return std::nullopt;
+  const double mean = statistics::mean(contrast.numbers);
+  double distance = std::numeric_limits<double>::infinity();
+  for (const auto& end : {contrast.low, contrast.high}) {
+    if (end) distance = std::min(distance, std::abs(mean - *end));
+  }
+  const double sd = statistics::standard_deviation(contrast.numbers);
+  if (!statistics::standard_error(contrast.numbers) || distance == 0.0) return std::nullopt;
+  return statistics::replications_for(distance, sd, 1.0 - level, power);
+}
+
+}  // namespace
+
+std::string_view name_of(Verdict verdict) {
+  switch (verdict) {
+    case Verdict::reproduced:
+      return "reproduced";
+    case Verdict::contradicted:
+      return "contradicted";
+    case Verdict::undecided:
+      return "undecided";
+  }
+  return "?";
+}
+
+std::size_t ClaimScope::cell(const CellSelection& selection) const {
+  const PlannedGroup& planned = results.plan().groups()[group];
+  require_columns(selection, planned, selection.origin());
+  std::optional<std::size_t> found;
+  for (const std::size_t candidate : cells) {
+    if (!selection.holds(planned.columns(), planned.labels(candidate))) continue;
+    if (found) {
+      throw InputError(selection.origin(), "several cells have " + selection.text() +
+                                               "; name more factors, here or in where");
+    }
+    found = candidate;
+  }
+  if (!found) {
+    throw InputError(selection.origin(),
+                     "no cell has " + selection.text() + (title.empty() ? "" : " with " + title));
+  }
+  return *found;
+}
+
+std::vector<std::optional<double>> ClaimScope::answers(std::size_t cell) const {
+  // Trials of a cell stand together in the plan, in the order of their replications.
+  const auto& trials = results.plan().all_trials();
+  const auto first = std::ranges::find_if(
+      trials, [&](const PlannedTrial& t) { return t.group == group && t.cell == cell; });
+  std::vector<std::optional<double>> answers;
+  for (auto i = static_cast<std::size_t>(first - trials.begin());
+       i < trials.size() && trials[i].group == group && trials[i].cell == cell; ++i) {
+    answers.push_back(results.answer(question, i));
+  }
+  return answers;
+}
+
+void Claim::declare(Options<Claim>& o) {
+  o.text("section", &Claim::section, "where it is stated");
+  o.text("says", &Claim::says, "the statement");
+  o.texts("groups", &Claim::groups, "the groups of the study it is about");
+  o.setting("where", &Claim::where, "a table: factor = label or labels", "the cells it is about");
+  o.text("metric", &Claim::metric, "the number it is about (shoal list measures)");
+  o.text("series", &Claim::series, "or a number against time");
+  o.number("at_s", &Claim::at_s, "s", at_least(0), "the time of the series");
+  o.text("cause", &Claim::cause, "the likely cause if trials contradict it; printed only then");
+  o.choice("test", &Claim::test, "the test that the statement becomes");
+}
+
+std::optional<std::string> Claim::complaint() const {
+  if (says.empty()) return "a claim says something";
+  if (metric.empty() == series.empty()) return "a claim needs a metric or a series";
+  if (series.empty() && at_s != 0.0) return "at_s belongs to a series";
+  return std::nullopt;
+}
+
+ClaimResult test_claim(const Claim& claim, const StudyResults& results) {
+  const Question question = claim.question();
+  const auto test = claim.test.make();
+  std::vector<Contrast> contrasts;
+  for (const ClaimScope& scope : scopes(claim, question, results, *test)) {
+    for (Contrast& contrast : test->contrasts(scope)) {
+      if (!scope.title.empty()) {
+        contrast.title = scope.title + (contrast.title.empty() ? "" : ": " + contrast.title);
+      }
+      contrasts.push_back(std::move(contrast));
+    }
+  }
+  const double corrected = 1.0 - (1.0 - level) / static_cast<double>(contrasts.size());
+  ClaimResult result;
+  int most = 0;
+  bool all = true, known = true;
+  for (const Contrast& contrast : contrasts) {
+    result.contrasts.push_back(judged(contrast, corrected));
+    const Verdict verdict = result.contrasts.back().verdict;
+    if (verdict == Verdict::contradicted) result.verdict = Verdict::contradicted;
+    all &= verdict == Verdict::reproduced;
+    if (verdict == Verdict::reproduced) continue;
+    const std::optional<int> n = needed(contrast);
+    known &= n.has_value();
+    most = std::max(most, n.value_or(0));
+  }
+  if (all) result.verdict = Verdict::reproduced;
+  if (result.verdict == Verdict::undecided && known) result.replications_needed = most;
+  return result;
+}
+
+std::vector<Claim> read_claims(const Setting& root) {
+  ClaimFile file;
+  read(file, root, "");
+  for (const Claim& claim : file.claims) {
+    if (!claim.metric.empty()) known_value(claim.metric, claim.origin);
+    if (!claim.series.empty()) known_series(claim.series, claim.origin);
+    claim.test.make();
+  }
+  return std::move(file.claims);
+}
+
+}  // namespace shoal::analysis

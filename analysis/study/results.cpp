@@ -1,0 +1,93 @@
+#include "shoal/analysis/study/results.hpp"
+
+#include <algorithm>
+#include <stdexcept>
+#include <unordered_map>
+
+namespace shoal::analysis {
+
+std::optional<double> value_at(const scenarios::Series& series, double time_s) {
+  const auto& times = series.time_s;
+  const auto after = std::ranges::lower_bound(times, time_s);
+  if (after == times.end()) return std::nullopt;
+  const auto k = static_cast<std::size_t>(after - times.begin());
+  if (times[k] == time_s) return series.values[k];
+  if (k == 0) return std::nullopt;
+  const double share = (time_s - times[k - 1]) / (times[k] - times[k - 1]);
+  return series.values[k - 1] + share * (series.values[k] - series.values[k - 1]);
+}
+
+std::optional<double> time_of(const scenarios::Series& series, double value) {
+  const auto& values = series.values;
+  const auto reached = std::ranges::find_if(values, [&](double v) { return v >= value; });
+  if (reached == values.end()) return std::nullopt;
+  const auto k = static_cast<std::size_t>(reached - values.begin());
+  if (values[k] == value) return series.time_s[k];
+  if (k == 0) return std::nullopt;
+  const double share = (value - values[k - 1]) / (values[k] - values[k - 1]);
+  return series.time_s[k - 1] + share * (series.time_s[k] - series.time_s[k - 1]);
+}
+
+StudyResults::StudyResults(const StudyPlan& plan, const Store& store,
+                           const std::vector<std::string>& metrics,
+                           const std::vector<std::string>& series)
+    : plan_(plan), states_(plan.trials(), State::missing), failures_(plan.trials()) {
+  std::unordered_map<std::string, std::size_t> place;
+  for (std::size_t i = 0; i < plan.trials(); ++i) {
+    const PlannedTrial& trial = plan.trial(i);
+    place.emplace(plan.groups()[trial.group].key(trial.cell, trial.replication), i);
+  }
+  for (const std::string& name : metrics) metrics_[name].resize(plan.trials());
+  for (const std::string& name : series) series_[name].resize(plan.trials());
+
+  std::string program;
+  for (const StoredTrial& stored : store.trials(metrics)) {
+    const auto found = place.find(stored.key);
+    if (found == place.end()) continue;  // of an earlier form of the study
+    if (program.empty()) program = stored.program;
+    if (stored.program != program) {
+      throw InputError("trials of this study were run by shoal " + program + " and by " +
+                       stored.program + "; run shoal sweep with --rerun-changed");
+    }
+    states_[found->second] = stored.failed() ? State::failed : State::done;
+    failures_[found->second] = stored.failure;
+    for (const auto& [name, value] : stored.metrics) metrics_[name][found->second] = value;
+  }
+  for (const std::string& name : series) {
+    for (auto& [key, numbers] : store.series(name)) {
+      const auto found = place.find(key);
+      if (found != place.end()) series_[name][found->second] = std::move(numbers);
+    }
+  }
+}
+
+std::size_t StudyResults::count(State state) const {
+  return static_cast<std::size_t>(std::ranges::count(states_, state));
+}
+
+const scenarios::Series* StudyResults::series(const std::string& name, std::size_t trial) const {
+  const auto found = series_.find(name);
+  if (found == series_.end()) throw std::logic_error("the series " + name + " was not read");
+  const auto& numbers = found->second[trial];
+  return numbers ? &*numbers : nullptr;
+}
+
+std::optional<double> StudyResults::answer(const Question& question, std::size_t trial) const {
+  if (states_[trial] != State::done) return std::nullopt;
+  if (!question.metric.empty()) {
+    const auto found = metrics_.find(question.metric);
+    if (found == metrics_.end()) {
+      throw std::logic_error("the metric " + question.metric + " was not read");
+    }
+    return found->second[trial];
+  }
+  const scenarios::Series* numbers = series(question.series, trial);
+  if (!numbers) return std::nullopt;
+  if (question.against.empty()) return value_at(*numbers, question.at);
+  const scenarios::Series* against = series(question.against, trial);
+  if (!against) return std::nullopt;
+  const std::optional<double> time_s = time_of(*against, question.at);
+  return time_s ? value_at(*numbers, *time_s) : std::nullopt;
+}
+
+}  // namespace shoal::analysis
