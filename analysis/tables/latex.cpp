@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <utility>
 
 #include "shoal/analysis/tables/latex_number.hpp"
 #include "shoal/analysis/tables/latex_text.hpp"
@@ -22,13 +23,13 @@ class LatexColumn {
       for (std::size_t k = 0; k < row[c].numbers.size(); ++k) rooms_[k].take(row[c].numbers[k]);
     }
     // Phantoms make all uncertainties as wide; powers of ten and marks come on top.
-    std::size_t most = 0;
+    std::pair<bool, std::size_t> most{false, 0};
     for (const auto& row : layout.rows) {
-      if (behind(row[c]).empty()) continue;
-      std::size_t extra = 1 + row[c].mark.size() + (row[c].numbers.size() > 1 ? 100 : 0);
+      std::size_t extra = row[c].mark.size();
       for (const Number& number : row[c].numbers) extra += number.exponent.size();
-      if (extra > most) widest_ = behind(row[c]);
-      most = std::max(most, extra);
+      const std::pair size{row[c].numbers.size() > 1, extra};
+      if (widest_.empty() || size > most) widest_ = behind(row[c]);
+      most = std::max(most, size);
     }
   }
 
@@ -59,11 +60,13 @@ class LatexColumn {
       return rooms_[k].before(number) + open + number.whole + latex_from_point(number) + close +
              rooms_[k].after(number);
     };
+    // Bold digits hang a little over their room.
+    const std::string clear = column_.best ? "\\," : "";
     const std::string uncertainty =
         column_.kind == ColumnKind::plus_minus  ? "{}\\pm{}" + part(1, "", "")
         : column_.kind == ColumnKind::deviation ? "\\;" + part(1, "(", ")")
                                                 : "\\;" + part(1, "[", ",") + part(2, "", "]");
-    return "$" + uncertainty + "$" + superscript(laid.mark);
+    return "$" + clear + uncertainty + "$" + superscript(laid.mark);
   }
 
   /// Bold digits are wider than plain ones: they hang from the point to both sides, over a box just
@@ -111,12 +114,26 @@ std::string tabular(const Table& table, const Layout& layout) {
   printed += "      @{}}\n      \\toprule\n";
   if (!layout.spans.empty()) printed += group_lines(layout);
   printed += line([&](std::size_t c) { return columns[c].header(table.columns[c]); });
-  printed += "      \\midrule\n";
+  if (!table.rows.empty()) printed += "      \\midrule\n";
   for (std::size_t r = 0; r < table.rows.size(); ++r) {
     printed +=
         line([&](std::size_t c) { return columns[c].cell(table.rows[r][c], layout.rows[r][c]); });
   }
   return printed + "      \\bottomrule\n    \\end{tabular}";
+}
+
+/// Those about all, each on a line of its own; then those of marks, one after another.
+std::string notes(const std::vector<Note>& notes) {
+  if (notes.empty()) return "";
+  std::string printed = "    \\par\\smallskip\\footnotesize\\raggedright\n";
+  for (const Note& note : notes) {
+    const std::string text = latex_escaped(note.text);
+    printed += "    " +
+               (note.mark.empty() ? text + "\\par"
+                                  : "\\mbox{" + superscript(note.mark) + "\\," + text + "}\\quad") +
+               "\n";
+  }
+  return printed;
 }
 
 }  // namespace
@@ -126,20 +143,18 @@ std::string as_latex(const Table& table) {
   std::string printed =
       "% \\usepackage{booktabs,siunitx}\n\\begin{table}\n  \\centering\n"
       "  \\sisetup{group-digits=false}%\n";
-  if (!table.caption.empty()) printed += "  \\caption{" + latex_escaped(table.caption) + "}\n";
-  // Without a caption, a label would be that of the section.
-  if (!table.caption.empty() && !table.name.empty())
-    printed += "  \\label{tab:" + table.name + "}\n";
+  if (!table.caption.empty()) {
+    printed += "  \\setlength{\\belowcaptionskip}{\\medskipamount}%\n  \\caption{" +
+               latex_escaped(table.caption) + "}\n";
+    // Without a caption, a label would be that of the section.
+    if (!table.name.empty()) printed += "  \\label{tab:" + table.name + "}\n";
+  }
   if (std::ranges::any_of(layout.columns, &LaidColumn::best)) {
     printed += "  \\def\\best#1#2{\\llap{\\boldmath$#1$}\\rlap{\\boldmath$#2$}}%\n";
   }
   // The box tells how wide the notes may be.
   printed += "  \\sbox0{%\n" + tabular(table, layout) + "}%\n";
-  printed += "  \\begin{minipage}{\\wd0}\n    \\usebox0\n";
-  if (!layout.notes.empty()) printed += "    \\par\\smallskip\\footnotesize\\raggedright\n";
-  for (const Note& note : layout.notes) {
-    printed += "    " + superscript(note.mark) + latex_escaped(note.text) + "\\par\n";
-  }
+  printed += "  \\begin{minipage}{\\wd0}\n    \\usebox0\n" + notes(layout.notes);
   return printed + "  \\end{minipage}\n\\end{table}\n";
 }
 

@@ -20,8 +20,8 @@ std::string latex_escaped(const std::string& text) {
       {">", "\\textgreater{}"},
       {"|", "\\textbar{}"},
       {"\"", "''"},
-      {"--", "-{}-"},
-      {"``", "`{}`"},
+      {"[", "{[}"},  // as \\* and \\[, both would be taken for options of the row before
+      {"*", "{*}"},
       {"&", "\\&"},
       {"%", "\\%"},
       {"$", "\\$"},
@@ -40,6 +40,9 @@ std::string latex_escaped(const std::string& text) {
         });
     escaped += found == spelt.end() ? std::string_view(line).substr(at, 1) : found->second;
     at += found == spelt.end() ? 1 : found->first.size();
+    // Two of these would be taken for one sign.
+    const bool ligature = std::string_view("-`'").find(line[at - 1]) != std::string_view::npos;
+    if (ligature && line[at - 1] == line[at]) escaped += "{}";
   }
   return escaped;
 }

@@ -82,9 +82,9 @@ std::vector<Span> spans_of(const std::vector<Column>& columns) {
 /// What is known of a column once all its cells are.
 LaidColumn laid(const Table& table, const Layout& layout, std::size_t c, ColumnKind kind) {
   LaidColumn column{.kind = kind};
-  for (std::size_t r = 0; r < table.rows.size(); ++r) {
-    column.counts = column.counts || counts_of(table.rows[r][c]).known();
-    const auto* estimate = std::get_if<Estimate>(&table.rows[r][c]);
+  for (const auto& row : table.rows) {
+    column.counts = column.counts || counts_of(row[c]).known();
+    const auto* estimate = std::get_if<Estimate>(&row[c]);
     if (estimate == nullptr) continue;
     column.best = column.best || estimate->best;
     if (estimate->digits.count == Digits::Count::significant) column.at_point = false;

@@ -56,7 +56,7 @@ struct Layout {
   std::vector<Span> spans;  ///< none where no column is of a group
   std::vector<Note> notes;
 
-  /// The extent that alone, or with the column's others, a number takes.
+  /// What a number takes by itself.
   static Extent extent_of(const Number& number, bool at_point);
 };
 
@@ -66,6 +66,7 @@ std::string with_unit(const std::string& header, const std::string& unit);
 /// Line breaks as blanks.
 std::string on_one_line(std::string text);
 
+/// The writers, among which print() chooses.
 std::string as_text(const Table& table);
 std::string as_csv(const Table& table);
 std::string as_markdown(const Table& table);

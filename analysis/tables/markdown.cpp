@@ -68,9 +68,11 @@ std::string as_markdown(const Table& table) {
     }
     printed += "\n";
   }
+  bool marks = false;  // notes of marks go on in one paragraph
   for (const Note& note : layout.notes) {
-    printed +=
-        "\n" + superscript(note.mark) + (note.mark.empty() ? "" : " ") + escaped(note.text) + "\n";
+    if (!marks) printed += "\n";
+    marks = !note.mark.empty();
+    printed += superscript(note.mark) + (marks ? " " : "") + escaped(note.text) + "\n";
   }
   return printed;
 }

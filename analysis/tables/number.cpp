@@ -67,8 +67,9 @@ std::vector<Number> numbers_of(const Estimate& estimate) {
       numbers.push_back(split(fixed(x, std::min(digits, most_decimals))));
     return numbers;
   }
-  // Never more than the digits that a double has, and at least the one before the point.
-  const int exponent = exponent_of(largest, 2);
+  // At least the digit before the point, and never more than a double has.
+  const int significant = std::clamp(digits + exponent_of(largest, 17) + 1, 1, 17);
+  const int exponent = exponent_of(largest, significant);
   const int decimals = std::clamp(digits + exponent, 0, 16);
   for (const double x : values) {
     numbers.push_back(split(fixed(x / std::pow(10.0, exponent), decimals)));

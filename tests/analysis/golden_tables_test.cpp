@@ -122,6 +122,8 @@ Table special() {
           .columns = {{"na|me_of *it*", "m^2"}, {"share", "%"}, {"a_b, \"c\"", "x_y"}},
           .rows = {{R"(C:\new_{50%} & $x^2$ ~#1)", estimate(1.0, {}, 1), estimate(1.0, {}, 0)},
                    {"Čapljina, Šibenik ± ü", estimate(2.0, {}, 1), estimate(2.0, {}, 0)},
+                   {"[1] in brackets", estimate(4.0, {}, 1), estimate(4.0, {}, 0)},
+                   {"*starred*", estimate(5.0, {}, 1), estimate(5.0, {}, 0)},
                    {"--set a=\"b\", <c>", estimate(3.0, {}, 1), Missing{}},
                    {"two\nlines_ | `code` *bold*", Missing{}, Missing{}}},
           .notes = {"All of 100% & more_of_it | *as it stands*."}};
