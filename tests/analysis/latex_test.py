@@ -32,7 +32,7 @@ def document(siunitx, tables):
 
 
 def log_complaints(log):
-    yield from COMPLAINT.findall(log)
+    yield from dict.fromkeys(COMPLAINT.findall(log))  # each once
     for match in OVERFULL.finditer(log):
         if float(match.group(1)) > WIDEST_OVERFULL_PT:
             yield match.group(0)
