@@ -28,16 +28,25 @@ std::vector<double> least(const ContenderFamily& family, Quantity quantity) {
   return values;
 }
 
-std::string quantile(std::vector<double> values, double share) {
-  if (values.empty()) return "-";
+Cell number(double value, Digits digits) {
+  return Estimate{.value = value, .digits = digits};
+}
+
+Cell count(std::size_t value) {
+  return number(static_cast<double>(value), Digits::decimals(0));
+}
+
+Cell quantile(std::vector<double> values, double share) {
+  if (values.empty()) return Missing{};
   const double place = std::round(share * static_cast<double>(values.size() - 1));
   const auto wanted = values.begin() + static_cast<std::ptrdiff_t>(place);
   std::ranges::nth_element(values, wanted);
-  return fmt::format("{:.3g}", *wanted);
+  return number(*wanted, Digits::significant(3));
 }
 
-std::string percent(std::size_t part, std::size_t whole) {
-  return fmt::format("{:.2f}", 100.0 * static_cast<double>(part) / static_cast<double>(whole));
+Cell percent(std::size_t part, std::size_t whole) {
+  return number(100.0 * static_cast<double>(part) / static_cast<double>(whole),
+                Digits::decimals(2));
 }
 
 /// What became of one contender's problems.
@@ -47,12 +56,13 @@ struct Tally {
   std::vector<double> evaluations, microseconds;
   std::map<std::string, std::size_t> failures;
 
-  std::string failed() const {
+  Cell failed() const {
     std::string text;
     for (const auto& [status, count] : failures) {
       text += fmt::format("{}{} {}", text.empty() ? "" : ", ", count, status);
     }
-    return text.empty() ? "-" : text;
+    if (text.empty()) return Missing{};
+    return text;
   }
 };
 
@@ -78,8 +88,7 @@ Tally tally_of(const Contender& contender, const Contender& reference,
 }
 
 template <class Effort>
-void add_profile(const ContenderFamily& family, const char* measure, Effort effort,
-                 TextTable& table) {
+void add_profile(const ContenderFamily& family, const char* measure, Effort effort, Table& table) {
   constexpr int octaves = 14, steps_per_octave = 4;
   const std::vector<double> best = least(family, effort);
   for (const Contender& contender : family.contenders) {
@@ -90,36 +99,46 @@ void add_profile(const ContenderFamily& family, const char* measure, Effort effo
         const Answer& answer = contender.answers[k];
         within += answer.solved && effort(answer) <= factor * best[k] ? 1.0 : 0.0;
       }
-      table.add({family.name, measure, contender.name, fmt::format("{:.4g}", factor),
-                 fmt::format("{:.5f}", within / static_cast<double>(best.size()))});
+      table.rows.push_back(
+          {family.name, measure, contender.name, number(factor, Digits::significant(4)),
+           number(within / static_cast<double>(best.size()), Digits::decimals(5))});
     }
   }
 }
 
 }  // namespace
 
-TextTable comparison_table(const SolverComparison& comparison, double same_within_m) {
-  TextTable table({"family", "solver", "problems", "solved %", "same minimum %", "other minimum %",
-                   "evaluations", "median us", "p95 us", "worst gap", "not solved"});
+Table comparison_table(const SolverComparison& comparison, double same_within_m) {
+  Table table;
+  for (const char* header :
+       {"family", "solver", "problems", "solved %", "same minimum %", "other minimum %",
+        "evaluations", "median us", "p95 us", "worst gap", "not solved"}) {
+    table.columns.push_back({.header = header});
+  }
   for (const ContenderFamily* family : comparison.families()) {
     const std::vector<double> lowest =
         least(*family, [](const Answer& answer) { return answer.cost; });
-    const std::size_t count = problems(*family);
+    const std::size_t posed = problems(*family);
     for (const Contender& contender : family->contenders) {
       const Tally tally =
           tally_of(contender, family->contenders[family->reference], lowest, same_within_m);
-      table.add({family->name, contender.name, std::to_string(count), percent(tally.solved, count),
-                 percent(tally.same, count), percent(tally.other, count),
-                 quantile(tally.evaluations, 0.5), quantile(tally.microseconds, 0.5),
-                 quantile(tally.microseconds, 0.95),
-                 tally.solved > 0 ? fmt::format("{:.2g}", tally.worst_gap) : "-", tally.failed()});
+      Cell gap;
+      if (tally.solved > 0) gap = number(tally.worst_gap, Digits::significant(2));
+      table.rows.push_back({family->name, contender.name, count(posed),
+                            percent(tally.solved, posed), percent(tally.same, posed),
+                            percent(tally.other, posed), quantile(tally.evaluations, 0.5),
+                            quantile(tally.microseconds, 0.5), quantile(tally.microseconds, 0.95),
+                            gap, tally.failed()});
     }
   }
   return table;
 }
 
-TextTable performance_profiles(const SolverComparison& comparison) {
-  TextTable table({"family", "measure", "solver", "factor", "share"});
+Table performance_profiles(const SolverComparison& comparison) {
+  Table table;
+  for (const char* header : {"family", "measure", "solver", "factor", "share"}) {
+    table.columns.push_back({.header = header});
+  }
   for (const ContenderFamily* family : comparison.families()) {
     add_profile(
         *family, "seconds", [](const Answer& answer) { return answer.seconds; }, table);

@@ -6,7 +6,7 @@
 
 #include "shoal/analysis/answer.hpp"
 #include "shoal/analysis/corpus.hpp"
-#include "shoal/analysis/text_table.hpp"
+#include "shoal/analysis/tables/table.hpp"
 
 namespace shoal::analysis {
 
@@ -51,11 +51,11 @@ class SolverComparison {
 
 /// Shares are of the problems posed; evaluations, times and gaps are of those solved. The gap is
 /// the excess of the cost over the lowest that any of the solvers found, in the cost's own unit.
-TextTable comparison_table(const SolverComparison& comparison, double same_within_m);
+Table comparison_table(const SolverComparison& comparison, double same_within_m);
 
 /// Dolan and Moré 2002, Benchmarking optimization software with performance profiles: the share of
 /// the problems that a solver solves within a factor of the least time (or evaluations) of all.
 /// Any local minimum counts as solved.
-TextTable performance_profiles(const SolverComparison& comparison);
+Table performance_profiles(const SolverComparison& comparison);
 
 }  // namespace shoal::analysis

@@ -9,7 +9,7 @@
 namespace shoal::program {
 
 void solve(const SolveArguments& arguments) {
-  const analysis::TextTable::Format format = analysis::table_format(arguments.format);
+  const analysis::TableFormat format = analysis::table_format(arguments.format);
   analysis::ComparisonSettings settings{
       .solvers = arguments.solvers, .reference = arguments.reference, .options = {}};
   for (const std::string& set : arguments.sets) scenarios::apply_set(settings.options, set);
@@ -21,10 +21,10 @@ void solve(const SolveArguments& arguments) {
     throw InputError("no problem of " + arguments.corpus +
                      " belongs to the family of a solver that was named");
   }
-  fmt::print("{}", analysis::comparison_table(comparison, arguments.same_within_m).print(format));
+  fmt::print("{}", print(analysis::comparison_table(comparison, arguments.same_within_m), format));
   if (!arguments.profiles.empty()) {
-    using enum analysis::TextTable::Format;
-    write_whole_file(arguments.profiles, analysis::performance_profiles(comparison).print(csv));
+    write_whole_file(arguments.profiles,
+                     print(analysis::performance_profiles(comparison), analysis::TableFormat::csv));
   }
 }
 

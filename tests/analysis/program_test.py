@@ -177,8 +177,9 @@ class Trials(Desk):
             csv = self.shoal(*arguments, "--format", "csv", "--profiles", "profiles.csv").stdout
             rows = [line.split(",") for line in csv.splitlines()[1:]]
             self.assertTrue(rows)
+            self.assertIn("solved_percent,same_minimum_percent,", csv.splitlines()[0])
             for row in rows:
-                wanted = "0.00" if row[1] == "grid" else "100.00"
+                wanted = "0" if row[1] == "grid" else "100"
                 if row[1] != "nlopt.slsqp":
                     self.assertEqual(row[3], wanted, row)
             if behaviour == "attraction_repulsion":

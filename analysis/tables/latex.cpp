@@ -1,0 +1,161 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <utility>
+
+#include "shoal/analysis/tables/latex_number.hpp"
+#include "shoal/analysis/tables/latex_text.hpp"
+#include "shoal/analysis/tables/layout.hpp"
+
+namespace shoal::analysis {
+namespace {
+
+std::string superscript(const std::string& mark) {
+  return mark.empty() ? "" : "\\textsuperscript{" + mark + "}";
+}
+
+/// A column of siunitx: values aligned at the point, and behind each, as a text of the same width
+/// in every row, its uncertainty and its mark.
+class LatexColumn {
+ public:
+  LatexColumn(const Layout& layout, std::size_t c) : column_(layout.columns[c]) {
+    for (const auto& row : layout.rows) {
+      for (std::size_t k = 0; k < row[c].numbers.size(); ++k) rooms_[k].take(row[c].numbers[k]);
+    }
+    // Phantoms make all uncertainties as wide; powers of ten and marks come on top.
+    std::pair<bool, std::size_t> most{false, 0};
+    for (const auto& row : layout.rows) {
+      std::size_t extra = row[c].mark.size();
+      for (const Number& number : row[c].numbers) extra += number.exponent.size();
+      const std::pair size{row[c].numbers.size() > 1, extra};
+      if (widest_.empty() || size > most) widest_ = behind(row[c]);
+      most = std::max(most, size);
+    }
+  }
+
+  std::string specification() const {
+    if (!column_.numeric()) return "l";
+    const std::string post = widest_.empty() ? "" : ",table-space-text-post={" + widest_ + "}";
+    return "S[table-format=" + rooms_[0].table_format() + post + "]";
+  }
+
+  std::string header(const Column& column) const {
+    const std::string text = latex_with_unit(column.header, column.unit);
+    return column_.numeric() ? "{" + text + "}" : text;
+  }
+
+  std::string cell(const Cell& cell, const LaidCell& laid) const {
+    if (const auto* text = std::get_if<std::string>(&cell)) return latex_escaped(*text);
+    if (laid.numbers.empty()) return "{--" + superscript(laid.mark) + "}";
+    if (laid.best) return best(laid);
+    const std::string text = behind(laid);
+    return latex_number(laid.numbers[0]) + (text.empty() ? "" : " {" + text + "}");
+  }
+
+ private:
+  std::string behind(const LaidCell& laid) const {
+    if (laid.numbers.size() < 2) return superscript(laid.mark);
+    const auto part = [&](std::size_t k, const std::string& open, const std::string& close) {
+      const Number& number = laid.numbers[k];
+      return rooms_[k].before(number) + open + number.whole + latex_from_point(number) + close +
+             rooms_[k].after(number);
+    };
+    // Bold digits hang a little over their room.
+    const std::string clear = column_.best ? "\\," : "";
+    const std::string uncertainty =
+        column_.kind == ColumnKind::plus_minus  ? "{}\\pm{}" + part(1, "", "")
+        : column_.kind == ColumnKind::deviation ? "\\;" + part(1, "(", ")")
+                                                : "\\;" + part(1, "[", ",") + part(2, "", "]");
+    return "$" + clear + uncertainty + "$" + superscript(laid.mark);
+  }
+
+  /// Bold digits are wider than plain ones: they hang from the point to both sides, over a box just
+  /// as wide as siunitx makes the other rows.
+  std::string best(const LaidCell& laid) const {
+    const Number& value = laid.numbers[0];
+    const std::string right = rooms_[0].right();
+    std::string text =
+        "{$" + rooms_[0].left() + "$\\best{" + value.whole + "}{" + latex_from_point(value) + "}";
+    if (!right.empty()) text += "$" + right + "$";
+    if (!widest_.empty()) text += "\\rlap{" + behind(laid) + "}" + latex_phantom(widest_);
+    return text + "}";
+  }
+
+  const LaidColumn& column_;
+  std::array<LatexRoom, 3> rooms_;
+  std::string widest_;  ///< text behind a number
+};
+
+std::string group_lines(const Layout& layout) {
+  std::string titles, rules;
+  std::size_t at = 0;
+  for (const Span& span : layout.spans) {
+    for (; at < span.first; ++at) titles += at == 0 ? "" : " &";
+    titles += fmt::format("{}\\multicolumn{{{}}}{{c}}{{{}}}", at == 0 ? "" : " & ", span.count,
+                          latex_with_unit(span.header, span.unit));
+    at += span.count;
+    rules += fmt::format("\\cmidrule(lr){{{}-{}}}", span.first + 1, at);
+  }
+  for (; at < layout.columns.size(); ++at) titles += " &";
+  return "      " + titles + " \\\\\n      " + rules + "\n";
+}
+
+std::string tabular(const Table& table, const Layout& layout) {
+  std::vector<LatexColumn> columns;
+  for (std::size_t c = 0; c < layout.columns.size(); ++c) columns.emplace_back(layout, c);
+  const auto line = [&](auto cell) {
+    std::string joined = "      ";
+    for (std::size_t c = 0; c < columns.size(); ++c) joined += (c == 0 ? "" : " & ") + cell(c);
+    return joined + " \\\\\n";
+  };
+
+  std::string printed = "    \\begin{tabular}{@{}\n";
+  for (const LatexColumn& column : columns) printed += "      " + column.specification() + "\n";
+  printed += "      @{}}\n      \\toprule\n";
+  if (!layout.spans.empty()) printed += group_lines(layout);
+  printed += line([&](std::size_t c) { return columns[c].header(table.columns[c]); });
+  if (!table.rows.empty()) printed += "      \\midrule\n";
+  for (std::size_t r = 0; r < table.rows.size(); ++r) {
+    printed +=
+        line([&](std::size_t c) { return columns[c].cell(table.rows[r][c], layout.rows[r][c]); });
+  }
+  return printed + "      \\bottomrule\n    \\end{tabular}";
+}
+
+/// Those about all, each on a line of its own; then those of marks, one after another.
+std::string notes(const std::vector<Note>& notes) {
+  if (notes.empty()) return "";
+  std::string printed = "    \\par\\smallskip\\footnotesize\\raggedright\n";
+  for (const Note& note : notes) {
+    const std::string text = latex_escaped(note.text);
+    printed += "    " +
+               (note.mark.empty() ? text + "\\par"
+                                  : "\\mbox{" + superscript(note.mark) + "\\," + text + "}\\quad") +
+               "\n";
+  }
+  return printed;
+}
+
+}  // namespace
+
+std::string as_latex(const Table& table) {
+  const Layout layout(table);
+  std::string printed =
+      "% \\usepackage{booktabs,siunitx}\n\\begin{table}\n  \\centering\n"
+      "  \\sisetup{group-digits=false}%\n";
+  if (!table.caption.empty()) {
+    printed += "  \\setlength{\\belowcaptionskip}{\\medskipamount}%\n  \\caption{" +
+               latex_escaped(table.caption) + "}\n";
+    // Without a caption, a label would be that of the section.
+    if (!table.name.empty()) printed += "  \\label{tab:" + table.name + "}\n";
+  }
+  if (std::ranges::any_of(layout.columns, &LaidColumn::best)) {
+    printed += "  \\def\\best#1#2{\\llap{\\boldmath$#1$}\\rlap{\\boldmath$#2$}}%\n";
+  }
+  // The box tells how wide the notes may be.
+  printed += "  \\sbox0{%\n" + tabular(table, layout) + "}%\n";
+  printed += "  \\begin{minipage}{\\wd0}\n    \\usebox0\n" + notes(layout.notes);
+  return printed + "  \\end{minipage}\n\\end{table}\n";
+}
+
+}  // namespace shoal::analysis

@@ -1,0 +1,75 @@
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "shoal/analysis/tables/number.hpp"
+#include "shoal/analysis/tables/table.hpp"
+
+namespace shoal::analysis {
+
+/// What a column holds; the last four are the uncertainties in their order.
+enum class ColumnKind { text, number, plus_minus, deviation, between };
+
+/// Characters before and from the point on, which all numbers at one place of a column are given.
+struct Extent {
+  std::size_t before = 0, after = 0;
+};
+
+struct LaidColumn {
+  ColumnKind kind = ColumnKind::text;
+  bool at_point = true;           ///< numbers are aligned at the point, or else at their end
+  std::array<Extent, 3> extents;  ///< of the value and of the numbers of its uncertainty
+  bool counts = false;            ///< some estimate knows its n, or trials failed
+  bool best = false;              ///< some estimate is the best
+
+  bool numeric() const { return kind != ColumnKind::text; }
+};
+
+struct LaidCell {
+  std::vector<Number> numbers;  ///< none for a text and what is missing
+  std::string mark;             ///< a letter that a note explains, or nothing
+  bool best = false;
+};
+
+/// A header over the columns [first, first + count).
+struct Span {
+  std::string header, unit;
+  std::size_t first = 0, count = 0;
+};
+
+struct Note {
+  std::string mark;  ///< "" for a note about all
+  std::string text;
+};
+
+/// What every form of a table shares: its kinds of columns, printed numbers, marks and notes.
+struct Layout {
+  /// Throws std::invalid_argument as print() says.
+  explicit Layout(const Table& table);
+
+  std::vector<LaidColumn> columns;
+  std::vector<std::vector<LaidCell>> rows;
+  std::vector<Span> spans;  ///< none where no column is of a group
+  std::vector<Note> notes;
+
+  /// What a number takes by itself.
+  static Extent extent_of(const Number& number, bool at_point);
+};
+
+/// `energy (Wh)`.
+std::string with_unit(const std::string& header, const std::string& unit);
+
+/// Line breaks as blanks.
+std::string on_one_line(std::string text);
+
+/// The writers, among which print() chooses.
+std::string as_text(const Table& table);
+std::string as_csv(const Table& table);
+std::string as_markdown(const Table& table);
+std::string as_latex(const Table& table);
+
+}  // namespace shoal::analysis

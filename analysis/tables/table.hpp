@@ -1,0 +1,95 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+namespace shoal::analysis {
+
+/// How many digits a number shows. Numbers with decimals are aligned at the point, also where they
+/// differ in them; the others as whole texts.
+struct Digits {
+  enum class Count { decimals, significant };
+  Count count = Count::significant;
+  int number = 3;
+
+  /// Digits after the point; of -1, tens are the last to show. Numbers that would need more than
+  /// six decimals, or three zeros that say nothing, are written with a power of ten.
+  static Digits decimals(int number) { return {Count::decimals, number}; }
+  /// As printf's `%g`: trailing zeros are dropped.
+  static Digits significant(int number) { return {Count::significant, number}; }
+};
+
+/// Two significant digits of an uncertainty, which are those its estimate deserves. Of an
+/// uncertainty of zero nothing follows: six significant digits. Throws std::invalid_argument for
+/// one that is negative or not finite.
+Digits decimals_for(double uncertainty);
+
+struct PlusMinus {
+  double by = 0.0;  ///< `77.5 +- 5.6`
+};
+struct Deviation {
+  double sd = 0.0;  ///< `77.5 (5.6)`
+};
+struct Between {
+  double low = 0.0, high = 0.0;  ///< `77.5 [71.9, 83.1]`: an interval, quartiles, a range
+};
+using Uncertainty = std::variant<std::monostate, PlusMinus, Deviation, Between>;
+
+/// A number, and what is known about it.
+struct Estimate {
+  double value = 0.0;
+  Uncertainty uncertainty = {};
+  Digits digits = {};
+  int n = 0;       ///< values behind it; 0 where it is no statistic
+  int failed = 0;  ///< trials that should have given a value, and did not
+  bool best = false;
+};
+
+/// Printed as a dash.
+struct Missing {
+  int failed = 0;  ///< trials, all of which failed
+};
+
+using Cell = std::variant<Missing, std::string, Estimate>;
+
+/// A column holds texts or estimates of one kind of uncertainty, and either may be missing.
+struct Column {
+  std::string header;
+  std::string unit = {};   ///< "" for none: `energy (Wh)`
+  std::string group = {};  ///< a header over all neighbouring columns that name it
+  std::string group_unit = {};
+  std::string name = {};  ///< what CSV calls it: `energy_mean_wh`; default: group, header and unit
+};
+
+/// The table of the house: what `shoal solve` prints and what papers get.
+struct Table {
+  std::string name;  ///< letters, digits and `_.:-`; LaTeX refers to it as tab:NAME
+  std::string caption;
+  std::vector<Column> columns;
+  std::vector<std::vector<Cell>> rows;
+  std::vector<std::string> notes;  ///< below it: what the uncertainties are, say
+};
+
+enum class TableFormat { text, csv, markdown, latex };
+
+/// Ends with a line break. Where estimates know their n, a note says it once; those that differ
+/// from most others, or had failures, carry a mark, and a note says what it stands for.
+///
+///  - `text`: for terminals. Best values end with `*`.
+///  - `csv`: RFC 4180 with `\n`; caption and notes are left out. An estimate takes columns of its
+///    own: `x`, then `x_plus_minus`, `x_sd` or `x_low` and `x_high`, then `x_n` and `x_failed`, and
+///    `x_best` where any is. Numbers are in full precision.
+///  - `markdown`: a pipe table of GitHub. Best values are bold.
+///  - `latex`: a table environment that needs booktabs and siunitx (2 or 3). Best values are bold.
+///
+/// Throws std::invalid_argument for a table without columns, rows of another length, columns that
+/// mix kinds, numbers that are not finite, intervals whose ends are swapped, negative counts and
+/// uncertainties, and names that are not unique or not fit for a label.
+std::string print(const Table& table, TableFormat format);
+
+/// Throws InputError, naming the known ones, for anything but text, csv, markdown and latex.
+TableFormat table_format(std::string_view name);
+
+}  // namespace shoal::analysis

@@ -1,0 +1,188 @@
+#include <gtest/gtest.h>
+
+#include <limits>
+#include <stdexcept>
+
+#include "shoal/analysis/tables/latex_text.hpp"
+#include "shoal/analysis/tables/number.hpp"
+#include "shoal/analysis/tables/table.hpp"
+#include "shoal/core/error.hpp"
+
+namespace shoal::analysis {
+namespace {
+
+using enum TableFormat;
+
+std::string printed(double value, Digits digits) {
+  return numbers_of({.value = value, .digits = digits}).front().text();
+}
+
+std::string printed(double value, double plus_minus) {
+  std::string text;
+  for (const Number& number : numbers_of({.value = value,
+                              .uncertainty = PlusMinus{plus_minus},
+                              .digits = decimals_for(plus_minus)})) {
+    text += (text.empty() ? "" : " +- ") + number.text();
+  }
+  return text;
+}
+
+Table of(Cell cell) {
+  return {.name = "t", .columns = {{"what"}, {"x"}}, .rows = {{"a", std::move(cell)}}};
+}
+
+TEST(Digits, AreTwoOfTheUncertainty) {
+  EXPECT_EQ(printed(77.536, 5.61), "77.5 +- 5.6");
+  EXPECT_EQ(printed(77.536, 0.0561), "77.536 +- 0.056");
+  EXPECT_EQ(printed(77.536, 12.4), "78 +- 12");
+  EXPECT_EQ(printed(12338.0, 243.0), "12340 +- 240");
+}
+
+TEST(Digits, CountThoseOfTheRoundedUncertainty) {
+  EXPECT_EQ(printed(1.2345, 0.0994), "1.234 +- 0.099");
+  EXPECT_EQ(printed(1.2345, 0.0996), "1.23 +- 0.10");
+  EXPECT_EQ(printed(50.0, 9.96), "50 +- 10");
+}
+
+TEST(Digits, AreSixWhereThereIsNoUncertainty) {
+  EXPECT_EQ(printed(20.0, 0.0), "20 +- 0");
+  EXPECT_EQ(printed(1.0 / 3.0, 0.0), "0.333333 +- 0");
+}
+
+TEST(Digits, ShareAPowerOfTenFarFromOne) {
+  EXPECT_EQ(printed(-1.2e-9, 3.4e-11), "-1.200e-09 +- 0.034e-09");
+  EXPECT_EQ(printed(1e-10, 3e-9), "0.1e-09 +- 3.0e-09");
+  EXPECT_EQ(printed(6.02214e23, 1.2e20), "6.0221e+23 +- 0.0012e+23");
+  EXPECT_EQ(printed(9.996e9, 2.3e7), "9.996e+09 +- 0.023e+09");
+}
+
+TEST(Digits, OfCountsAreAllOfThem) {
+  EXPECT_EQ(printed(123456789012345.0, Digits::decimals(0)), "123456789012345");
+}
+
+TEST(Digits, OfANumberRoundedToZeroHaveNoSign) {
+  EXPECT_EQ(printed(-0.04, Digits::decimals(1)), "0.0");
+  EXPECT_EQ(printed(-0.06, Digits::decimals(1)), "-0.1");
+  EXPECT_EQ(printed(-0.0, Digits::significant(3)), "0");
+}
+
+TEST(Digits, AreNotToBeHadOfAnUncertaintyThatIsNone) {
+  EXPECT_THROW(decimals_for(-1.0), std::invalid_argument);
+  EXPECT_THROW(decimals_for(std::numeric_limits<double>::quiet_NaN()), std::invalid_argument);
+}
+
+TEST(Tables, RefuseNumbersThatAreNotFinite) {
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  const double inf = std::numeric_limits<double>::infinity();
+  for (const TableFormat format : {text, csv, markdown, latex}) {
+    EXPECT_NO_THROW(print(of(Estimate{1.0}), format));
+    EXPECT_THROW(print(of(Estimate{nan}), format), std::invalid_argument);
+    EXPECT_THROW(print(of(Estimate{-inf}), format), std::invalid_argument);
+    EXPECT_THROW(print(of(Estimate{1.0, PlusMinus{nan}}), format), std::invalid_argument);
+    EXPECT_THROW(print(of(Estimate{1.0, Deviation{inf}}), format), std::invalid_argument);
+    EXPECT_THROW(print(of(Estimate{1.0, Between{0.0, nan}}), format), std::invalid_argument);
+    EXPECT_THROW(print(of(Estimate{1.0, Between{nan, 2.0}}), format), std::invalid_argument);
+  }
+}
+
+TEST(Tables, RefuseWhatCannotBe) {
+  EXPECT_THROW(print(of(Estimate{1.0, PlusMinus{-0.1}}), text), std::invalid_argument);
+  EXPECT_THROW(print(of(Estimate{1.0, Between{2.0, 0.0}}), text), std::invalid_argument);
+  EXPECT_NO_THROW(print(of(Estimate{1.0, Between{2.0, 3.0}}), text));  // BCa may leave the mean out
+  EXPECT_THROW(print(of(Estimate{.value = 1.0, .n = -1}), text), std::invalid_argument);
+  EXPECT_THROW(print(of(Estimate{.value = 1.0, .failed = -1}), text), std::invalid_argument);
+  EXPECT_THROW(print(of(Missing{.failed = -1}), text), std::invalid_argument);
+}
+
+TEST(Tables, RefuseColumnsThatMixKinds) {
+  Table table = of(Estimate{1.0, PlusMinus{0.1}});
+  table.rows.push_back({"b", Estimate{2.0}});
+  table.rows.push_back({"c", Missing{}});
+  EXPECT_NO_THROW(print(table, text));
+  table.rows.push_back({"d", "never"});
+  EXPECT_THROW(print(table, text), std::invalid_argument);
+  table.rows.back() = {"d", Estimate{1.0, Deviation{0.1}}};
+  EXPECT_THROW(print(table, text), std::invalid_argument);
+}
+
+TEST(Tables, RefuseOtherShapesAndNames) {
+  EXPECT_THROW(print({}, text), std::invalid_argument);
+  Table table = of(Missing{});
+  table.rows.push_back({"b"});
+  EXPECT_THROW(print(table, text), std::invalid_argument);
+  table = of(Missing{});
+  table.name = "a b";
+  EXPECT_THROW(print(table, latex), std::invalid_argument);
+}
+
+TEST(Tables, RefuseColumnsOfOneNameInCsv) {
+  Table table{.columns = {{"x", "m"}, {"x", "m"}}};
+  EXPECT_NO_THROW(print(table, text));
+  EXPECT_THROW(print(table, csv), std::invalid_argument);
+  table.columns[1].name = "y";
+  EXPECT_EQ(print(table, csv), "x_m,y\n");
+  table.columns = {{"x"}, {"x sd"}};
+  table.rows = {{Estimate{1.0, Deviation{0.1}}, Missing{}}};
+  EXPECT_THROW(print(table, csv), std::invalid_argument);
+}
+
+TEST(Tables, HaveCsvOfFullPrecision) {
+  EXPECT_EQ(print(of(Estimate{.value = 1.0 / 3.0,
+                              .uncertainty = Between{-1e-300, 123456789.123},
+                              .digits = Digits::decimals(1),
+                              .n = 3}),
+                  csv),
+            "what,x,x_low,x_high,x_n,x_failed\n"
+            "a,0.3333333333333333,-1e-300,123456789.123,3,0\n");
+}
+
+TEST(Tables, SayNOnceWhereItIsTheSame) {
+  Table table = of(Estimate{.value = 1.0, .n = 5});
+  table.rows.push_back({"b", Estimate{.value = 2.0, .n = 5}});
+  EXPECT_EQ(print(table, text), "what  x\na     1\nb     2\n\nn = 5 throughout.\n");
+}
+
+TEST(Tables, MarkFailuresEvenWhereAllHadThem) {
+  Table table = of(Estimate{.value = 1.0, .n = 4, .failed = 1});
+  EXPECT_EQ(print(table, text), "what    x\na     1^a\n\n^a n = 4, 1 failed.\n");
+  table.rows[0][1] = Missing{.failed = 5};
+  EXPECT_EQ(print(table, text), "what  x\na     -^a\n\n^a all 5 failed.\n");
+}
+
+TEST(Tables, TakeMoreMarksThanThereAreLetters) {
+  Table table{.columns = {{"x"}}};
+  table.rows.push_back({Estimate{.value = 1.0, .n = 100}});
+  table.rows.push_back({Estimate{.value = 1.0, .n = 100}});
+  for (int n = 1; n <= 28; ++n) table.rows.push_back({Estimate{.value = 1.0, .n = n}});
+  EXPECT_NE(print(table, text).find("^z n = 26.\n^aa n = 27.\n^ab n = 28.\n"), std::string::npos);
+}
+
+TEST(Tables, NeedNoNotes) {
+  EXPECT_EQ(print(of(Estimate{1.5}), text), "what    x\na     1.5\n");
+}
+
+TEST(Tables, NameTheirFormatsWhenOneIsUnknown) {
+  EXPECT_EQ(table_format("latex"), latex);
+  try {
+    table_format("latx");
+    FAIL();
+  } catch (const InputError& error) {
+    EXPECT_STREQ(error.what(), "there is no format \"latx\"; did you mean \"latex\"?");
+  }
+}
+
+TEST(LatexText, EscapesCommandsAndLigatures) {
+  EXPECT_EQ(latex_escaped("\\~^${}#_&%"),
+            "\\textbackslash{}\\textasciitilde{}\\textasciicircum{}\\$\\{\\}\\#\\_\\&\\%");
+  EXPECT_EQ(latex_escaped("---a``-"), "-{}-{}-a`{}`-");
+}
+
+TEST(LatexText, SpellsUnits) {
+  EXPECT_EQ(latex_with_unit("energy", "Wh"), "energy (\\si{Wh})");
+  EXPECT_EQ(latex_with_unit("", "%"), "(\\si{\\percent})");
+  EXPECT_EQ(latex_with_unit("a_b", "c_d"), "a\\_b (c\\_d)");
+  EXPECT_EQ(latex_with_unit("n", ""), "n");
+}
+
+}  // namespace
+}  // namespace shoal::analysis
