@@ -37,6 +37,14 @@ bool SeriesGrid::due(double time_s) {
 
 namespace {
 
+[[noreturn]] void undeclared(const std::string& name) {
+  throw std::logic_error("a measure must yield what it declares, in that order; see " + name);
+}
+
+bool finite(const std::vector<double>& numbers) {
+  return std::ranges::all_of(numbers, [](double x) { return std::isfinite(x); });
+}
+
 std::vector<Quantity> gathered(std::vector<Quantity> (Measure::*list)() const) {
   std::vector<Quantity> all;
   const auto& registry = Registry<Measure>::instance();
@@ -59,6 +67,29 @@ const Quantity& named(const std::vector<Quantity>& known, const std::string& nam
 }
 
 }  // namespace
+
+void conclude(const Measure& measure, const scenarios::World& world, Results& results) {
+  const std::vector<Quantity> values = measure.values(), series = measure.series();
+  const std::size_t first_value = results.values.size(), first_series = results.series.size();
+  measure.finish(world, results);
+  if (results.values.size() != first_value + values.size()) undeclared("a number of values");
+  if (results.series.size() != first_series + series.size()) undeclared("a number of series");
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    const auto& [name, value] = results.values[first_value + i];
+    if (name != values[i].name) undeclared(name);
+    if (value && !std::isfinite(*value)) throw std::logic_error(name + " is not finite");
+  }
+  for (std::size_t i = 0; i < series.size(); ++i) {
+    scenarios::Series& added = results.series[first_series + i];
+    if (added.name != series[i].name) undeclared(added.name);
+    if (added.time_s.size() != added.values.size() || !finite(added.values)) {
+      throw std::logic_error("the series " + added.name +
+                             " needs a finite number at every instant");
+    }
+    added.unit = series[i].unit;
+    added.meaning = series[i].meaning;
+  }
+}
 
 const std::vector<Quantity>& known_values() {
   static const std::vector<Quantity> known = gathered(&Measure::values);

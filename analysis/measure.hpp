@@ -41,7 +41,8 @@ class Measure : public scenarios::Observer {
   static constexpr const char* family = "measure";
   static constexpr const char* family_meaning = "says how well a trial went";
 
-  /// What finish() adds, each time and in this order: values, and series against time.
+  /// What finish() adds, each time and in this order: values, and series against time. An instant
+  /// at which a number is not defined is left out of its series.
   virtual std::vector<Quantity> values() const = 0;
   virtual std::vector<Quantity> series() const { return {}; }
 
@@ -64,6 +65,10 @@ class Measure : public scenarios::Observer {
 
   double every_s_ = 0.0;
 };
+
+/// Adds what a measure says, with the units and meanings that it declares. Throws std::logic_error
+/// if that is not what it declares, or is not finite.
+void conclude(const Measure& measure, const scenarios::World& world, Results& results);
 
 /// All values and all series that measures yield, in the order of their measures.
 const std::vector<Quantity>& known_values();

@@ -1,8 +1,6 @@
 #include "shoal/analysis/trial.hpp"
 
 #include <chrono>
-#include <cmath>
-#include <stdexcept>
 #include <vector>
 
 namespace shoal::analysis {
@@ -15,30 +13,6 @@ std::vector<std::unique_ptr<Measure>> all_measures() {
     measures.push_back(registry.make(member.name, Setting{}, member.name));
   }
   return measures;
-}
-
-[[noreturn]] void undeclared(const std::string& name) {
-  throw std::logic_error("a measure must yield what it declares, in that order; see " + name);
-}
-
-/// What a measure says, checked against its declaration, which also gives units and meanings.
-void finish(const Measure& measure, const scenarios::World& world, Results& results) {
-  const std::vector<Quantity> values = measure.values(), series = measure.series();
-  const std::size_t first_value = results.values.size(), first_series = results.series.size();
-  measure.finish(world, results);
-  if (results.values.size() != first_value + values.size()) undeclared("a number of values");
-  if (results.series.size() != first_series + series.size()) undeclared("a number of series");
-  for (std::size_t i = 0; i < values.size(); ++i) {
-    const auto& [name, value] = results.values[first_value + i];
-    if (name != values[i].name) undeclared(name);
-    if (value && !std::isfinite(*value)) throw std::logic_error(name + " is not finite");
-  }
-  for (std::size_t i = 0; i < series.size(); ++i) {
-    scenarios::Series& added = results.series[first_series + i];
-    if (added.name != series[i].name) undeclared(added.name);
-    added.unit = series[i].unit;
-    added.meaning = series[i].meaning;
-  }
 }
 
 }  // namespace
@@ -67,7 +41,7 @@ Trial run_trial(const scenarios::Scenario& scenario, const TrialSettings& settin
   trial.world->run(observers);
   trial.wall_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
 
-  for (const auto& measure : measures) finish(*measure, *trial.world, trial.results);
+  for (const auto& measure : measures) conclude(*measure, *trial.world, trial.results);
   return trial;
 }
 

@@ -12,6 +12,20 @@ void write_text(const fs::path& file, const std::string& text) {
   write_whole_file(file, text);
 }
 
+/// Units as UDUNITS, and so CF, spells them.
+std::string cf_unit(const std::string& unit) {
+  if (unit.empty()) return "1";
+  if (unit == "deg") return "degree";
+  if (unit == "Wh") return "W h";
+  if (unit == "m/Wh") return "m W-1 h-1";
+  return unit;
+}
+
+std::vector<scenarios::Series> in_cf_units(std::vector<scenarios::Series> series) {
+  for (scenarios::Series& each : series) each.unit = cf_unit(each.unit);
+  return series;
+}
+
 }  // namespace
 
 void require_writable(const fs::path& folder, const std::string& remedy) {
@@ -62,7 +76,7 @@ void write_trial(const Trial& trial, const std::string& name, const fs::path& fo
   }
   write_text(folder / "scenario.toml", to_toml(scenarios::resolved_scenario(trial.scenario)));
   if (trial.record) {
-    trial.record->write(folder / "run.nc", *trial.world, trial.results.series,
+    trial.record->write(folder / "run.nc", *trial.world, in_cf_units(trial.results.series),
                         {{"title", "shoal run of " + name},
                          {"behaviour", trial.scenario.behaviour.kind()},
                          {"seed", std::to_string(trial.scenario.trial.seed)},

@@ -195,12 +195,18 @@ void TrialRecord::write(const std::filesystem::path& path, const World& world,
     }
     ids.push_back(id);
   }
-  std::vector<std::pair<int, int>> series_ids;
+  struct Written {
+    const Series& series;
+    int axis, values;
+  };
+  std::vector<Written> written;
   for (const Series& s : series) {
+    if (s.time_s.empty()) continue;  // an axis of no length would be one without end
     const std::string axis_name = s.name + "_time";
     const int dimension = file.dimension(axis_name, s.time_s.size());
     const int axis = time_axis(axis_name, dimension);
-    series_ids.emplace_back(axis, file.variable(s.name, NC_DOUBLE, {dimension}, s.unit, s.meaning));
+    const int values = file.variable(s.name, NC_DOUBLE, {dimension}, s.unit, s.meaning);
+    written.push_back({s, axis, values});
   }
   file.check(nc_enddef(file.id()));
 
@@ -217,9 +223,9 @@ void TrialRecord::write(const std::filesystem::path& path, const World& world,
     }
     file.check(nc_put_var_float(file.id(), ids[v], transposed.data()));
   }
-  for (std::size_t s = 0; s < series.size(); ++s) {
-    file.check(nc_put_var_double(file.id(), series_ids[s].first, series[s].time_s.data()));
-    file.check(nc_put_var_double(file.id(), series_ids[s].second, series[s].values.data()));
+  for (const auto& [s, axis, values] : written) {
+    file.check(nc_put_var_double(file.id(), axis, s.time_s.data()));
+    file.check(nc_put_var_double(file.id(), values, s.values.data()));
   }
   file.finish();
 }

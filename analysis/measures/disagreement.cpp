@@ -1,9 +1,8 @@
-#include <algorithm>
-#include <cmath>
-#include <complex>
 #include <optional>
+#include <vector>
 
 #include "shoal/analysis/measure.hpp"
+#include "shoal/analysis/measures/circular_spread.hpp"
 #include "shoal/core/angles.hpp"
 #include "shoal/formations/lattice_symmetry.hpp"
 
@@ -12,10 +11,9 @@ namespace {
 
 constexpr double hour_s = 3600.0;
 
-/// How much vehicles disagree on how the plan is turned: the circular standard deviation
-/// (Mardia and Jupp 2000, eq. 2.3.11) of the rotation of the plan that each last laid onto its
-/// neighbours. Rotations that map the lattice onto itself count as the same. No value for
-/// behaviours that lay no plan.
+/// How much vehicles disagree on how the plan is turned: the circular standard deviation of the
+/// rotation of the plan that each last laid onto its neighbours. Rotations that map the lattice
+/// onto itself count as the same. No value for behaviours that lay no plan.
 class Disagreement final : public Measure {
  public:
   static void declare(Options<Disagreement>&) {}
@@ -36,18 +34,15 @@ class Disagreement final : public Measure {
   }
 
   void observe(const scenarios::World& world) override {
-    std::complex<double> sum = 0.0;
-    int count = 0;
+    angles_.clear();
     for (std::size_t i = 0; i < world.size(); ++i) {
       const auto& T_own_plan = world.planner(i).last_target().T_own_plan;
-      if (world.lost(i) || !T_own_plan) continue;
-      sum += std::polar(1.0, order_ * T_own_plan->angle());
-      ++count;
+      if (!world.lost(i) && T_own_plan) angles_.push_back(T_own_plan->angle());
     }
-    const double resultant = std::abs(sum) / count;
-    if (count < 2 || !(resultant > 0.0)) return;
+    const std::optional<double> spread = circular_spread(angles_, order_);
+    if (!spread) return;
     time_s_.push_back(world.time_s());
-    spread_deg_.push_back(degrees(std::sqrt(-2.0 * std::log(std::min(resultant, 1.0))) / order_));
+    spread_deg_.push_back(degrees(*spread));
   }
 
   void finish(const scenarios::World& world, Results& results) const override {
@@ -70,6 +65,7 @@ class Disagreement final : public Measure {
   }
 
   int order_ = 1;
+  std::vector<double> angles_;  // rad, axes of the world
   std::vector<double> time_s_, spread_deg_;
 };
 

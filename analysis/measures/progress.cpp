@@ -46,7 +46,10 @@ class Progress final : public Measure {
     positions_ = std::move(positions);
     if (started_ && grid_.due(world.time_s())) {
       path_at_m_.push_back(path_m_);
-      efficiency_.push_back(path_m_ / energy_mean_wh(world).value_or(1.0));
+      if (const std::optional<double> energy_wh = energy_mean_wh(world)) {
+        spending_s_.push_back(world.time_s());
+        efficiency_.push_back(path_m_ / *energy_wh);
+      }
     }
   }
 
@@ -57,7 +60,7 @@ class Progress final : public Measure {
     results.add("efficiency_m_per_wh",
                 energy_wh ? std::optional(path_m_ / *energy_wh) : std::nullopt);
     results.add_series("centroid_path_m", grid_.time_s(), path_at_m_);
-    results.add_series("efficiency_m_per_wh", grid_.time_s(), efficiency_);
+    results.add_series("efficiency_m_per_wh", spending_s_, efficiency_);
   }
 
  private:
@@ -69,7 +72,7 @@ class Progress final : public Measure {
   }
 
   SeriesGrid grid_;
-  std::vector<double> path_at_m_, efficiency_;
+  std::vector<double> path_at_m_, spending_s_, efficiency_;
   bool started_ = false;
   double path_m_ = 0.0;
   Eigen::Vector2d centroid_ = Eigen::Vector2d::Zero();

@@ -41,7 +41,7 @@ class Rotation final : public Measure {
 };
 
 const Enrol<Measure, Rotation> enrolled{
-    "rotation", "formation_rotation_deg: of the plan laid onto the vehicles, unwrapped"};
+    "rotation", "the turning of the plan laid onto the vehicles, followed through full turns"};
 
 }  // namespace
 }  // namespace shoal::analysis

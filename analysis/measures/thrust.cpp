@@ -1,5 +1,3 @@
-#include <array>
-
 #include "shoal/analysis/measure.hpp"
 
 namespace shoal::analysis {
@@ -43,69 +41,79 @@ class Thrust final : public Measure {
   }
 
   void observe(const scenarios::World& w) override {
-    const Ratios now = ratios(w);
-    // At mission start nothing was travelled: there is no share of it yet.
-    if (!now.time || !now.distance_mean || !now.distance) return;
-    time_s_.push_back(w.time_s());
-    const double numbers[] = {now.time->mean,     now.time->least,     now.time->greatest,
-                              *now.distance_mean, now.distance->least, now.distance->greatest};
-    for (std::size_t k = 0; k < columns_.size(); ++k) columns_[k].push_back(numbers[k]);
+    if (const auto share = of_time(w)) times_.add(w.time_s(), *share);
+    if (const auto share = of_distance(w)) distances_.add(w.time_s(), *share);
   }
 
   void finish(const scenarios::World& w, Results& results) const override {
-    const Ratios end = ratios(w);
-    const auto of = [](const std::optional<Spread>& spread, double Spread::*number) {
-      return spread ? std::optional((*spread).*number) : std::nullopt;
+    const std::optional<Spread> time = of_time(w), distance = of_distance(w);
+    const auto number = [](const std::optional<Spread>& spread, double Spread::*which) {
+      return spread ? std::optional((*spread).*which) : std::nullopt;
     };
     const auto width = [](const std::optional<Spread>& spread) {
       return spread ? std::optional(spread->greatest - spread->least) : std::nullopt;
     };
-    results.add("thrust_time_ratio_mean", of(end.time, &Spread::mean));
-    results.add("thrust_time_ratio_min", of(end.time, &Spread::least));
-    results.add("thrust_time_ratio_max", of(end.time, &Spread::greatest));
-    results.add("thrust_distance_ratio_mean", end.distance_mean);
-    results.add("thrust_time_ratio_spread", width(end.time));
-    results.add("thrust_distance_ratio_min", of(end.distance, &Spread::least));
-    results.add("thrust_distance_ratio_max", of(end.distance, &Spread::greatest));
-    results.add("thrust_distance_ratio_spread", width(end.distance));
+    results.add("thrust_time_ratio_mean", number(time, &Spread::mean));
+    results.add("thrust_time_ratio_min", number(time, &Spread::least));
+    results.add("thrust_time_ratio_max", number(time, &Spread::greatest));
+    results.add("thrust_distance_ratio_mean", mean_over_mean(w));
+    results.add("thrust_time_ratio_spread", width(time));
+    results.add("thrust_distance_ratio_min", number(distance, &Spread::least));
+    results.add("thrust_distance_ratio_max", number(distance, &Spread::greatest));
+    results.add("thrust_distance_ratio_spread", width(distance));
     results.add("path_straightness", straightness(w));
-    const std::vector<Quantity> names = series();
-    for (std::size_t k = 0; k < columns_.size(); ++k) {
-      results.add_series(names[k].name, time_s_, columns_[k]);
-    }
+    times_.append_to(results, "thrust_time_ratio_");
+    distances_.append_to(results, "thrust_distance_ratio_");
   }
 
  private:
-  struct Ratios {
-    std::optional<Spread> time, distance;
-    std::optional<double> distance_mean;
+  /// Mean, least and greatest share against time.
+  struct History {
+    std::vector<double> time_s, mean, least, greatest;
+
+    void add(double time, const Spread& share) {
+      time_s.push_back(time);
+      mean.push_back(share.mean);
+      least.push_back(share.least);
+      greatest.push_back(share.greatest);
+    }
+    void append_to(Results& results, const std::string& name) const {
+      results.add_series(name + "mean", time_s, mean);
+      results.add_series(name + "min", time_s, least);
+      results.add_series(name + "max", time_s, greatest);
+    }
   };
 
-  static bool moved(const scenarios::World& w) {
+  /// Nothing at mission start: no time has passed that could be shared.
+  static std::optional<Spread> of_time(const scenarios::World& w) {
+    if (w.time_s() <= 0.0) return std::nullopt;
+    return over_survivors(w, [&](std::size_t i) { return w.logbook(i).thrusting_s / w.time_s(); });
+  }
+
+  /// Nothing as long as a vehicle has not moved. The mean is that of the thesis.
+  static std::optional<Spread> of_distance(const scenarios::World& w) {
+    if (!all_moved(w)) return std::nullopt;
+    auto share = over_survivors(
+        w, [&](std::size_t i) { return w.logbook(i).thrust_distance_m / w.logbook(i).distance_m; });
+    share->mean = *mean_over_mean(w);
+    return share;
+  }
+
+  static std::optional<double> mean_over_mean(const scenarios::World& w) {
+    const auto distance = over_survivors(w, [&](std::size_t i) { return w.logbook(i).distance_m; });
+    if (!distance || distance->mean <= 0.0) return std::nullopt;
+    const auto thrusting =
+        over_survivors(w, [&](std::size_t i) { return w.logbook(i).thrust_distance_m; });
+    return thrusting->mean / distance->mean;
+  }
+
+  static bool all_moved(const scenarios::World& w) {
     const auto distance = over_survivors(w, [&](std::size_t i) { return w.logbook(i).distance_m; });
     return distance && distance->least > 0.0;
   }
 
-  static Ratios ratios(const scenarios::World& w) {
-    Ratios ratios;
-    if (w.time_s() > 0.0) {
-      ratios.time =
-          over_survivors(w, [&](std::size_t i) { return w.logbook(i).thrusting_s / w.time_s(); });
-    }
-    const auto distance = over_survivors(w, [&](std::size_t i) { return w.logbook(i).distance_m; });
-    const auto thrusting =
-        over_survivors(w, [&](std::size_t i) { return w.logbook(i).thrust_distance_m; });
-    if (distance && distance->mean > 0.0) ratios.distance_mean = thrusting->mean / distance->mean;
-    if (moved(w)) {
-      ratios.distance = over_survivors(w, [&](std::size_t i) {
-        return w.logbook(i).thrust_distance_m / w.logbook(i).distance_m;
-      });
-    }
-    return ratios;
-  }
-
   std::optional<double> straightness(const scenarios::World& w) const {
-    if (!moved(w)) return std::nullopt;
+    if (!all_moved(w)) return std::nullopt;
     return over_survivors(w,
                           [&](std::size_t i) {
                             const Eigen::Vector2d end(w.swarm().x_m[i], w.swarm().y_m[i]);
@@ -115,8 +123,7 @@ class Thrust final : public Measure {
   }
 
   std::vector<Eigen::Vector2d> start_;
-  std::vector<double> time_s_;
-  std::array<std::vector<double>, 6> columns_;
+  History times_, distances_;
 };
 
 const Enrol<Measure, Thrust> enrolled{"thrust", "shares of time and of distance spent thrusting"};

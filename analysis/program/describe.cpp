@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "commands.hpp"
+#include "shoal/analysis/measure.hpp"
 #include "shoal/core/option_place.hpp"
 #include "shoal/core/text.hpp"
 #include "shoal/scenarios/library_path.hpp"
@@ -86,6 +87,21 @@ bool describe_members(const std::string& name, std::vector<std::string>& known) 
   return found;
 }
 
+/// What measures yield under that name: a value, a series, or both.
+bool describe_quantities(const std::string& name, std::vector<std::string>& known) {
+  bool found = false;
+  const auto describe = [&](const analysis::Quantity& quantity, const char* what) {
+    known.push_back(quantity.name);
+    if (quantity.name != name) return;
+    const std::string unit = quantity.unit.empty() ? "a pure number" : "in " + quantity.unit;
+    fmt::print("{} ({} of a trial, {}): {}\n", name, what, unit, quantity.meaning);
+    found = true;
+  };
+  for (const auto& value : analysis::known_values()) describe(value, "value");
+  for (const auto& series : analysis::known_series()) describe(series, "series");
+  return found;
+}
+
 bool describe_scenario(const std::string& name, std::vector<std::string>& known) {
   const std::vector<std::string> names = scenarios::library_scenarios();
   known.insert(known.end(), names.begin(), names.end());
@@ -104,6 +120,7 @@ void describe(const std::string& name) {
   if (found) describe_key(name);
   std::vector<std::string> known = root.names();
   found |= describe_members(name, known);
+  found |= describe_quantities(name, known);
   found = found || describe_scenario(name, known);
   if (found) return;
   // What begins like a key is one that is wrong, unless members are called like that.

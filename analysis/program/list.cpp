@@ -1,6 +1,7 @@
 #include <fmt/core.h>
 
 #include "commands.hpp"
+#include "shoal/analysis/measure.hpp"
 #include "shoal/core/registry.hpp"
 #include "shoal/core/text.hpp"
 #include "shoal/scenarios/library_path.hpp"
@@ -11,6 +12,25 @@ namespace {
 void list_scenarios() {
   fmt::print("scenario: an experiment to run\n");
   for (const std::string& name : scenarios::library_scenarios()) fmt::print("  {}\n", name);
+}
+
+void list_quantities(const std::vector<analysis::Quantity>& quantities, const char* what) {
+  fmt::print("    {}\n", what);
+  for (const auto& [name, unit, meaning] : quantities) {
+    fmt::print("      {:<38} {:<5} {}\n", name, unit, meaning);
+  }
+}
+
+/// Measures have no options; what they yield is what studies name.
+void list_measures(const RegistryBase& family) {
+  fmt::print("{}: {}\n", family.family(), family.meaning());
+  for (const MemberInfo& member : family.members()) {
+    fmt::print("  {:<26} {}\n", member.name, member.summary);
+    const auto measure =
+        Registry<analysis::Measure>::instance().make(member.name, Setting{}, member.name);
+    list_quantities(measure->values(), "values");
+    if (!measure->series().empty()) list_quantities(measure->series(), "series");
+  }
 }
 
 void list_family(const RegistryBase& family) {
@@ -37,7 +57,9 @@ void list(const std::string& wanted) {
     return asked;
   };
   for (const RegistryBase* family : families()) {
-    if (asked_for(family->family())) list_family(*family);
+    if (!asked_for(family->family())) continue;
+    const bool measures = family->family() == analysis::Measure::family;
+    measures ? list_measures(*family) : list_family(*family);
   }
   if (asked_for("scenario")) list_scenarios();
   if (!found) throw InputError("there is no family \"" + wanted + '"' + suggestion(wanted, known));

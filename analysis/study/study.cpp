@@ -4,6 +4,7 @@
 #include <array>
 #include <set>
 
+#include "shoal/analysis/measure.hpp"
 #include "shoal/core/text.hpp"
 #include "shoal/scenarios/library_path.hpp"
 
@@ -47,6 +48,31 @@ void require_names(const std::vector<Request>& requests, std::set<std::string>& 
     if (taken.insert(request.name).second) continue;
     throw InputError(request.origin, "there are two tables called \"" + request.name +
                                          "\"; their files would be one");
+  }
+}
+
+void require_known_values(const std::vector<std::string>& names, const Origin& origin) {
+  for (const std::string& name : names) known_value(name, origin);
+}
+
+void require_known_series(const std::vector<std::string>& names, const Origin& origin) {
+  for (const std::string& name : names) known_series(name, origin);
+}
+
+/// Throws InputError if the study names what no measure yields: better before its trials than
+/// after.
+void require_known_quantities(const Study& study) {
+  require_known_series(study.series, study.origin);
+  for (const TableRequest& table : study.tables) {
+    require_known_values(table.metrics, table.origin);
+    require_known_series(table.series, table.origin);
+    if (!table.against.empty()) known_series(table.against, table.origin);
+  }
+  for (const ComparisonRequest& comparison : study.comparisons) {
+    require_known_values(comparison.metrics, comparison.origin);
+  }
+  for (const SensitivityRequest& sensitivity : study.sensitivities) {
+    require_known_values(sensitivity.metrics, sensitivity.origin);
   }
 }
 
@@ -212,6 +238,7 @@ Study read_study(const Setting& root) {
   require_names(study.tables, names);
   require_names(study.comparisons, names);
   require_names(study.sensitivities, names);
+  require_known_quantities(study);
   return study;
 }
 

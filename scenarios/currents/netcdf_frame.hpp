@@ -13,6 +13,8 @@ namespace shoal::scenarios {
 struct MissionOrigin {
   std::optional<Eigen::Vector2d> longitude_latitude;  ///< degrees
   Eigen::Vector2d x_y = Eigen::Vector2d::Zero();      ///< metres of a projected grid
+
+  bool operator==(const MissionOrigin&) const = default;
 };
 
 /// How the mission's frame (metres from its origin) and a file's grid lie to each other.

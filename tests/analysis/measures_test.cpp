@@ -25,6 +25,21 @@ Trial run(const Settings& base, const Settings& more = {}) {
   return run_trial(scenarios::read_scenario(root), {.record = false});
 }
 
+/// How long the four need to go around the middle of a vortex together (s).
+double around_the_vortex_s() {
+  const Setting options;
+  const auto vortex =
+      Registry<scenarios::Current>::instance().make("vortex", options, "current.vortex");
+  const double radius_m = 150.0 * std::numbers::sqrt2;
+  double u = 0.0, v = 0.0;
+  vortex->sample(0.0, {&radius_m, 1}, std::vector<double>{0.0}, {&u, 1}, {&v, 1});
+  return 2.0 * std::numbers::pi * radius_m / v;
+}
+
+const scenarios::Series& series(const Results& results, const std::string& name) {
+  return *std::ranges::find(results.series, name, &scenarios::Series::name);
+}
+
 TEST(Results, KnowTheMeasuresByName) {
   Results results;
   results.add("a_m", 2.5);
@@ -63,23 +78,57 @@ TEST(Energy, OfADriftingVehicleIsHotelLoadAndPings) {
   }
 }
 
+TEST(Energy, IsSpentAtTheRateOfHotelLoadAndPings) {
+  const Results results = run(parked).results;
+  EXPECT_EQ(results.at("energy_spread_wh"), 0.0);
+  // From 40 s on, that is pings at 60 and at 90 s.
+  EXPECT_NEAR(*results.at("energy_rate_w"), 1.5 + 2 * 2.4 / 60.0, 1e-9);
+}
+
+TEST(Energy, OfThoseLeftIsSpentAtARateOfTheirOwn) {
+  const Results results =
+      run(parked, {"faults.node_loss={every_s=50,count=1}", "energy.ping_j=0"}).results;
+  EXPECT_NEAR(*results.at("energy_rate_w"), 1.5, 1e-9);
+}
+
 TEST(Energy, OfNothingHasNoEfficiency) {
   const Results results = run(parked, {"energy.hotel_w=0", "energy.ping_j=0"}).results;
   EXPECT_EQ(results.at("energy_mean_wh"), 0.0);
   EXPECT_EQ(results.at("efficiency_m_per_wh"), std::nullopt);
+  EXPECT_TRUE(series(results, "efficiency_m_per_wh").time_s.empty());
 }
 
 TEST(Thrust, OfADriftingSwarmIsNone) {
   const Results results =
       run(parked, {"current.kind=uniform", "current.uniform.u_m_s=0.5"}).results;
-  for (const char* name : {"thrust_time_ratio_mean", "thrust_time_ratio_min",
-                           "thrust_time_ratio_max", "thrust_distance_ratio_mean"}) {
+  for (const char* name :
+       {"thrust_time_ratio_mean", "thrust_time_ratio_min", "thrust_time_ratio_max",
+        "thrust_time_ratio_spread", "thrust_distance_ratio_mean", "thrust_distance_ratio_min",
+        "thrust_distance_ratio_max", "thrust_distance_ratio_spread"}) {
     EXPECT_EQ(results.at(name), 0.0) << name;
   }
 }
 
+TEST(Thrust, IsNotWhatMakesTheTrackOfADriftingVehicleStraight) {
+  EXPECT_NEAR(*run(parked, {"current.kind=uniform", "current.uniform.u_m_s=0.5"})
+                   .results.at("path_straightness"),
+              1.0, 1e-9);
+  // Around a vortex, a vehicle comes back to where it was.
+  const double period_s = around_the_vortex_s();
+  EXPECT_LT(*run(parked, {"current.kind=vortex", "quality.every_s=0",
+                          "trial.duration_s=" + std::to_string(std::round(period_s))})
+                 .results.at("path_straightness"),
+            0.01);
+}
+
 TEST(Thrust, OfVehiclesThatDoNotMoveHasNoShareOfTheDistance) {
-  EXPECT_EQ(run(parked).results.at("thrust_distance_ratio_mean"), std::nullopt);
+  const Results results = run(parked).results;
+  for (const char* name : {"thrust_distance_ratio_mean", "thrust_distance_ratio_min",
+                           "thrust_distance_ratio_max", "path_straightness"}) {
+    EXPECT_EQ(results.at(name), std::nullopt) << name;
+  }
+  EXPECT_TRUE(series(results, "thrust_distance_ratio_mean").time_s.empty());
+  EXPECT_FALSE(series(results, "thrust_time_ratio_mean").time_s.empty());
 }
 
 TEST(Thrust, OfASwarmThatFormsIsAShare) {
@@ -129,10 +178,9 @@ TEST(Quality, OfTheFormationItselfIsZeroAtOnce) {
   EXPECT_NEAR(*results.at("quality_final_m"), 0.0, 1e-9);
   EXPECT_NEAR(*results.at("quality_settled_m"), 0.0, 1e-9);
   EXPECT_EQ(results.at("time_to_quality_20m_s"), 0.0);
-  ASSERT_EQ(results.series.size(), 1u);
-  EXPECT_EQ(results.series[0].name, "quality");
-  EXPECT_EQ(results.series[0].time_s.size(), 11u);
-  EXPECT_EQ(results.series[0].time_s.back(), 100.0);
+  EXPECT_NEAR(*results.at("quality_worst_m"), 0.0, 1e-9);
+  EXPECT_NEAR(*results.at("quality_trend_m_per_h"), 0.0, 1e-6);
+  EXPECT_NEAR(*results.at("energy_to_quality_20m_wh"), 2.4 / 3600.0, 1e-12);  // the first ping
 }
 
 TEST(Quality, OfTwoVehiclesIsHalfTheErrorOfTheirDistance) {
@@ -141,13 +189,16 @@ TEST(Quality, OfTwoVehiclesIsHalfTheErrorOfTheirDistance) {
                               .results;
   EXPECT_NEAR(*results.at("quality_final_m"), 50.0, 1e-9);
   EXPECT_NEAR(*results.at("quality_settled_m"), 50.0, 1e-9);
+  EXPECT_NEAR(*results.at("quality_worst_m"), 50.0, 1e-9);
+  EXPECT_NEAR(*results.at("quality_last_m"), 50.0, 1e-9);
   EXPECT_EQ(results.at("time_to_quality_20m_s"), std::nullopt);
+  EXPECT_EQ(results.at("energy_to_quality_20m_wh"), std::nullopt);
 }
 
 TEST(Quality, IsNotMeasuredWhenNobodyAsks) {
   const Results results = run(parked, {"quality.every_s=0"}).results;
   EXPECT_EQ(results.at("quality_final_m"), std::nullopt);
-  EXPECT_TRUE(results.series.empty());
+  EXPECT_TRUE(series(results, "quality").time_s.empty());
 }
 
 TEST(Quality, IsRefusedForSwarmsThatAreTooLarge) {
@@ -170,21 +221,59 @@ TEST(Rotation, IsTheAngleOfThePlanOnTheVehicles) {
 }
 
 TEST(Rotation, IsFollowedThroughFullTurns) {
-  // Four vehicles at the same distance from the middle of a vortex go around it together.
-  const Setting options;
-  const auto vortex =
-      Registry<scenarios::Current>::instance().make("vortex", options, "current.vortex");
-  const double radius_m = 150.0 * std::numbers::sqrt2;
-  double u = 0.0, v = 0.0;
-  vortex->sample(0.0, {&radius_m, 1}, std::vector<double>{0.0}, {&u, 1}, {&v, 1});
-  ASSERT_GT(v, 0.0);
-  const double period_s = 2.0 * std::numbers::pi * radius_m / v;
+  const double period_s = around_the_vortex_s();
   const double duration_s = std::ceil(1.5 * period_s);
   const Results results = run(parked, {"current.kind=vortex", "quality.every_s=0",
                                        "trial.duration_s=" + std::to_string(duration_s)})
                               .results;
   EXPECT_NEAR(*results.at("formation_rotation_deg"), 360.0 * duration_s / period_s, 2.0);
   EXPECT_NEAR(*results.at("centroid_path_m"), 0.0, 1e-6);
+}
+
+TEST(Disagreement, IsNoneAmongVehiclesOnThePlan) {
+  const Results results =
+      run(parked, {"ping={range_sd_m=0,bearing_sd_deg=0,elevation_sd_deg=0}"}).results;
+  EXPECT_LT(*results.at("rotation_disagreement_deg"), 1e-4);
+  EXPECT_LT(*results.at("rotation_disagreement_first_hour_deg"), 1e-4);
+  EXPECT_GT(*run(parked).results.at("rotation_disagreement_deg"), 0.1);
+}
+
+TEST(Disagreement, IsThatOfBehavioursThatLayAPlan) {
+  const Results results = run(parked, {"behaviour.kind=attraction_repulsion"}).results;
+  EXPECT_EQ(results.at("rotation_disagreement_deg"), std::nullopt);
+  EXPECT_EQ(results.at("rotation_disagreement_first_hour_deg"), std::nullopt);
+  EXPECT_TRUE(series(results, "rotation_disagreement_deg").time_s.empty());
+}
+
+TEST(Series, StandOnInstantsThatTheyShare) {
+  const Results results =
+      run(parked, {"current.kind=uniform", "current.uniform.u_m_s=0.5"}).results;
+  const std::vector<double> instants = {0, 10, 20, 30, 40, 50, 60, 70, 80, 90, 100};
+  for (const char* name : {"quality", "energy_mean_wh", "energy_min_wh", "energy_max_wh",
+                           "centroid_path_m", "efficiency_m_per_wh"}) {
+    EXPECT_EQ(series(results, name).time_s, instants) << name;
+  }
+  const std::vector<double> later(instants.begin() + 1, instants.end());
+  for (const char* of : {"time", "distance"}) {
+    for (const char* which : {"mean", "min", "max"}) {
+      const std::string name = std::string("thrust_") + of + "_ratio_" + which;
+      EXPECT_EQ(series(results, name).time_s, later) << name << ": nothing to share at the start";
+    }
+  }
+  EXPECT_EQ(series(run(parked, {"quality.every_s=0"}).results, "energy_mean_wh").time_s,
+            (std::vector<double>{0, 30, 60, 90}));
+}
+
+TEST(Series, EndWithTheValue) {
+  const Results results =
+      run(parked, {"current.kind=uniform", "current.uniform.u_m_s=0.5"}).results;
+  for (const scenarios::Series& each : results.series) {
+    const auto value = std::ranges::find(results.values, each.name,
+                                         &std::pair<std::string, std::optional<double>>::first);
+    if (value == results.values.end() || each.name.starts_with("rotation")) continue;
+    EXPECT_EQ(value->second, each.values.back()) << each.name;
+  }
+  EXPECT_EQ(results.at("quality_final_m"), series(results, "quality").values.back());
 }
 
 TEST(Trial, HasTheSameMeasuresWithAndWithoutARecord) {

@@ -205,6 +205,7 @@ BAD_ARGUMENTS = [
     (["describe", "ping.perod_s"], ["ping has no option", 'did you mean "period_s"?']),
     (["describe", "ping.period_s.x"], ["ping.period_s is a number"]),
     (["describe", "behaviour.rigid.x"], ['did you mean "rigid_registration"?']),
+    (["describe", "energy_maen_wh"], ['did you mean "energy_mean_wh"?']),
     (["describe", "."], ['no option ""']),
     (["describe", "pin.period_s"], ['a scenario has no option "pin"; did you mean "ping"?']),
     (["describe", "nlopt.lbgfs"], ['nothing is called "nlopt.lbgfs"; did you mean "nlopt.lbfgs"?']),

@@ -15,7 +15,19 @@ METRICS = """energy_mean_wh energy_min_wh energy_max_wh energy_propulsion_mean_w
 energy_hotel_mean_wh energy_comms_mean_wh quality_final_m quality_settled_m time_to_quality_20m_s
 centroid_path_m centroid_displacement_m efficiency_m_per_wh thrust_time_ratio_mean
 thrust_time_ratio_min thrust_time_ratio_max thrust_distance_ratio_mean formation_rotation_deg
-min_separation_m fragments lost_vehicles""".split()
+min_separation_m fragments lost_vehicles energy_spread_wh energy_rate_w quality_worst_m
+quality_last_m quality_trend_m_per_h quality_oscillation_m energy_to_quality_20m_wh
+thrust_time_ratio_spread thrust_distance_ratio_min thrust_distance_ratio_max
+thrust_distance_ratio_spread path_straightness rotation_disagreement_deg
+rotation_disagreement_first_hour_deg""".split()
+# What five minutes are too short for.
+LATER = ["time_to_quality_20m_s", "energy_to_quality_20m_wh", "quality_oscillation_m"]
+SERIES = {
+    "quality": "m", "energy_mean_wh": "W h", "energy_min_wh": "W h", "energy_max_wh": "W h",
+    "centroid_path_m": "m", "efficiency_m_per_wh": "m W-1 h-1", "thrust_time_ratio_mean": "1",
+    "thrust_time_ratio_min": "1", "thrust_time_ratio_max": "1",
+    "thrust_distance_ratio_mean": "1", "thrust_distance_ratio_min": "1",
+    "thrust_distance_ratio_max": "1", "rotation_disagreement_deg": "degree"}
 BESIDE = ["scenario", "behaviour", "seed", "vehicles", "duration_s", "wall_s",
           "vehicle_seconds_per_wall_s", "metrics"]
 BEHAVIOURS = ["assignment_registration", "attraction_repulsion", "pairwise_referencing",
@@ -92,6 +104,34 @@ class Help(Desk):
         self.assertIn("plan.kind\n", text)
         self.assertIn("plan (start)", text)
 
+    def test_list_measures_shows_what_they_yield(self):
+        text = self.say("list", "measures")
+        for line in ["  energy ", "      energy_rate_w ", "      thrust_time_ratio_mean "]:
+            self.assertIn("\n" + line, text)
+        self.assertNotIn("energy_rate_w", self.say("list", "behaviour"))
+
+    def test_describe_what_a_measure_yields(self):
+        self.assertEqual(self.say("describe", "energy_rate_w"),
+                         "energy_rate_w (value of a trial, in W): "
+                         "mean power in the last 60 % of the mission\n")
+        text = self.say("describe", "energy_mean_wh")
+        self.assertIn("energy_mean_wh (value of a trial, in Wh): ", text)
+        self.assertIn("energy_mean_wh (series of a trial, in Wh): ", text)
+        self.assertIn("(value of a trial, a pure number)", self.say("describe", "fragments"))
+
+    def test_describe_finds_both_a_measure_and_a_series_of_that_name(self):
+        text = self.say("describe", "quality")
+        for line in ["quality: how the formation quality is measured",
+                     "quality (measure): ", "quality (series of a trial, in m): "]:
+            self.assertIn(line, text)
+
+    def test_what_list_measures_shows_is_what_a_run_says(self):
+        self.write("brief.toml", "trial.duration_s = 60\n")
+        metrics = self.run_trial("brief.toml")["metrics"]
+        listed = self.say("list", "measures")
+        for name in metrics:
+            self.assertIn(f"      {name} ", listed)
+
     def test_a_described_scenario_is_a_scenario(self):
         self.write("copy.toml", self.say("describe", "redsea_square"))
         self.assertIn("20 vehicles", self.say("check", "copy.toml"))
@@ -141,7 +181,7 @@ class Trials(Desk):
         self.assertEqual((summary["seed"], summary["duration_s"]), (1, 300))
         metrics = summary["metrics"]
         for name, value in metrics.items():
-            if name != "time_to_quality_20m_s":
+            if name not in LATER:
                 self.assertTrue(np.isfinite(value), name)
         self.assertLess(metrics["energy_min_wh"], metrics["energy_mean_wh"])
         self.assertLess(metrics["energy_mean_wh"], metrics["energy_max_wh"])
@@ -283,7 +323,18 @@ class Record(Desk):
             self.assertEqual(variable.dims, ("vehicle", "time"), name)
             self.assertEqual(variable.attrs["units"], unit, name)
             self.assertTrue(variable.attrs["long_name"], name)
-        self.assertEqual(set(self.run_nc.data_vars), {*RECORDED, "quality"})
+        for name, unit in SERIES.items():
+            variable = self.run_nc[name]
+            self.assertEqual(variable.dims, (name + "_time",))
+            self.assertEqual(variable.attrs["units"], unit, name)
+            self.assertTrue(variable.attrs["long_name"], name)
+        self.assertEqual(set(self.run_nc.data_vars), {*RECORDED, *SERIES})
+
+    def test_a_series_of_nothing_is_left_out(self):
+        self.run_trial("redsea_square", "--set", "trial.duration_s=60", "--set",
+                       "quality.every_s=0", out="short")
+        with xarray.open_dataset(self.desk / "short/run.nc") as run_nc:
+            self.assertEqual(set(run_nc.data_vars), {*RECORDED, *SERIES} - {"quality"})
 
     def test_it_is_a_cf_trajectory_file(self):
         attributes = self.run_nc.attrs
