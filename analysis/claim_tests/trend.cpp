@@ -17,8 +17,8 @@ struct Trend final : ClaimTest {
 
   static void declare(Options<Trend>& o) {
     o.text("along", &Trend::along, "the factor, its levels in the order of the study");
-    o.word("direction", &Trend::direction, {{"falls", Direction::falls}, {"rises", Direction::rises}},
-           "what the answer does");
+    o.word("direction", &Trend::direction,
+           {{"falls", Direction::falls}, {"rises", Direction::rises}}, "what the answer does");
   }
 
   std::vector<std::string> compared() const override { return {along}; }

@@ -48,5 +48,7 @@ void check(const std::vector<std::string>& files);
 void corpus(const CorpusArguments& arguments);
 void solve(const SolveArguments& arguments);
 void sweep(const SweepArguments& arguments);
+void tables(const std::string& folder, bool summary);
+void claims(const std::string& folder);
 
 }  // namespace shoal::program

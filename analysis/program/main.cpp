@@ -105,6 +105,16 @@ int main(int argc, char** argv) {
   sweep_command->add_flag("--retry-failed", sweep.retry_failed, "run failed trials again");
   sweep_command->callback([&] { command = [&] { shoal::program::sweep(sweep); }; });
 
+  std::string folder;
+  CLI::App* tables_command =
+      app.add_subcommand("tables", "Print and write the tables of a study, from what is stored");
+  tables_command->add_option("folder", folder, "what shoal sweep wrote")->required();
+  tables_command->callback([&] { command = [&] { shoal::program::tables(folder, false); }; });
+  CLI::App* claims_command =
+      app.add_subcommand("claims", "Test the claims of a study on what is stored");
+  claims_command->add_option("folder", folder, "what shoal sweep wrote")->required();
+  claims_command->callback([&] { command = [&] { shoal::program::claims(folder); }; });
+
   CLI::App* worker_command = app.add_subcommand("trial-worker", "One trial for shoal sweep");
   worker_command->group("");  // not for people
   worker_command->callback([&] { command = [] { shoal::analysis::serve_as_worker(); }; });

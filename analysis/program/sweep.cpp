@@ -105,6 +105,8 @@ void sweep(const SweepArguments& arguments) {
   if (progress.failed > 0) {
     fmt::print("{} failed; the first: {}\n", progress.failed, progress.first_failure);
   }
+  // A part of a study has no tables of its own.
+  if (settings.shards == 1) tables(folder.string(), true);
 }
 
 }  // namespace shoal::program

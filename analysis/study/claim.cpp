@@ -2,11 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 
-#include "shoal/analysis/measure.hpp"
 #include "shoal/analysis/statistics/intervals.hpp"
 #include "shoal/analysis/statistics/power.hpp"
+#include "shoal/analysis/study/slices.hpp"
 #include "shoal/core/text.hpp"
 
 namespace shoal::analysis {
@@ -15,31 +16,11 @@ namespace {
 constexpr double level = 0.95;
 constexpr double power = 0.8;
 
-struct ClaimFile {
-  std::vector<Claim> claims;
-
-  static constexpr const char* noun = "a file of claims";
-  static void declare(Options<ClaimFile>& o) {
-    o.tables("claim", &ClaimFile::claims, "statements on the trials of a study");
-  }
-};
-
 std::vector<std::size_t> groups_of(const Claim& claim, const StudyPlan& plan) {
-  std::vector<std::string> known;
-  for (const PlannedGroup& group : plan.groups()) known.push_back(group.name());
-  if (claim.groups.empty()) {
-    if (known.size() == 1) return {0};
+  if (claim.groups.empty() && plan.groups().size() > 1) {
     throw InputError(claim.origin, "the study has several groups; say which the claim is about");
   }
-  std::vector<std::size_t> places;
-  for (const std::string& name : claim.groups) {
-    const auto found = std::ranges::find(known, name);
-    if (found == known.end()) {
-      throw InputError(claim.origin, "the study has no group \"" + name + '"' + suggestion(name, known));
-    }
-    places.push_back(static_cast<std::size_t>(found - known.begin()));
-  }
-  return places;
+  return places_of_groups(claim.groups, plan, claim.origin);
 }
 
 void require_columns(const CellSelection& selection, const PlannedGroup& group,
@@ -90,8 +71,8 @@ ContrastResult judged(const Contrast& contrast, double corrected_level) {
   result.high = interval->high;
   const bool inside = (!contrast.low || interval->low > *contrast.low) &&
                       (!contrast.high || interval->high < *contrast.high);
-  const bool outside = (contrast.low && wide->high < *contrast.low) ||
-                       (contrast.high && wide->low > *contrast.high);
+  const bool outside =
+      (contrast.low && wide->high < *contrast.low) || (contrast.high && wide->low > *contrast.high);
   if (inside) result.verdict = Verdict::reproduced;
   if (outside) result.verdict = Verdict::contradicted;
   return result;
@@ -144,39 +125,15 @@ std::size_t ClaimScope::cell(const CellSelection& selection) const {
 }
 
 std::vector<std::optional<double>> ClaimScope::answers(std::size_t cell) const {
-  // Trials of a cell stand together in the plan, in the order of their replications.
-  const auto& trials = results.plan().all_trials();
-  const auto first = std::ranges::find_if(
-      trials, [&](const PlannedTrial& t) { return t.group == group && t.cell == cell; });
   std::vector<std::optional<double>> answers;
-  for (auto i = static_cast<std::size_t>(first - trials.begin());
-       i < trials.size() && trials[i].group == group && trials[i].cell == cell; ++i) {
-    answers.push_back(results.answer(question, i));
+  for (int k = 0; k < results.plan().groups()[group].replications(); ++k) {
+    answers.push_back(results.answer(question, results.plan().index(group, cell, k)));
   }
   return answers;
 }
 
-void Claim::declare(Options<Claim>& o) {
-  o.text("section", &Claim::section, "where it is stated");
-  o.text("says", &Claim::says, "the statement");
-  o.texts("groups", &Claim::groups, "the groups of the study it is about");
-  o.setting("where", &Claim::where, "a table: factor = label or labels", "the cells it is about");
-  o.text("metric", &Claim::metric, "the number it is about (shoal list measures)");
-  o.text("series", &Claim::series, "or a number against time");
-  o.number("at_s", &Claim::at_s, "s", at_least(0), "the time of the series");
-  o.text("cause", &Claim::cause, "the likely cause if trials contradict it; printed only then");
-  o.choice("test", &Claim::test, "the test that the statement becomes");
-}
-
-std::optional<std::string> Claim::complaint() const {
-  if (says.empty()) return "a claim says something";
-  if (metric.empty() == series.empty()) return "a claim needs a metric or a series";
-  if (series.empty() && at_s != 0.0) return "at_s belongs to a series";
-  return std::nullopt;
-}
-
 ClaimResult test_claim(const Claim& claim, const StudyResults& results) {
-  const Question question = claim.question();
+  const Question question{claim.metric, claim.series, "", claim.at_s};
   const auto test = claim.test.make();
   std::vector<Contrast> contrasts;
   for (const ClaimScope& scope : scopes(claim, question, results, *test)) {
@@ -204,17 +161,6 @@ ClaimResult test_claim(const Claim& claim, const StudyResults& results) {
   if (all) result.verdict = Verdict::reproduced;
   if (result.verdict == Verdict::undecided && known) result.replications_needed = most;
   return result;
-}
-
-std::vector<Claim> read_claims(const Setting& root) {
-  ClaimFile file;
-  read(file, root, "");
-  for (const Claim& claim : file.claims) {
-    if (!claim.metric.empty()) known_value(claim.metric, claim.origin);
-    if (!claim.series.empty()) known_series(claim.series, claim.origin);
-    claim.test.make();
-  }
-  return std::move(file.claims);
 }
 
 }  // namespace shoal::analysis

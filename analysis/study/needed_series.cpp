@@ -10,6 +10,9 @@ std::vector<std::string> needed_series(const Study& study) {
     names.insert(table.series.begin(), table.series.end());
     if (!table.against.empty()) names.insert(table.against);
   }
+  for (const Claim& claim : study.claims) {
+    if (!claim.series.empty()) names.insert(claim.series);
+  }
   return {names.begin(), names.end()};
 }
 

@@ -124,10 +124,16 @@ StudyPlan::StudyPlan(const Study& study) : study_(study) {
     const std::int64_t replications =
         group.replications > 0 ? group.replications : study.replications;
     groups_.emplace_back(group, replications);
+    first_trial_.push_back(trials_.size());
     for (std::size_t cell = 0; cell < groups_.back().cells(); ++cell) {
       for (int k = 0; k < replications; ++k) trials_.push_back({groups_.size() - 1, cell, k});
     }
   }
+}
+
+std::size_t StudyPlan::index(std::size_t group, std::size_t cell, int replication) const {
+  return first_trial_[group] + cell * static_cast<std::size_t>(groups_[group].replications()) +
+         static_cast<std::size_t>(replication);
 }
 
 std::string StudyPlan::title(const PlannedTrial& trial) const {

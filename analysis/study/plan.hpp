@@ -74,6 +74,8 @@ class StudyPlan {
   std::size_t trials() const { return trials_.size(); }
   const PlannedTrial& trial(std::size_t i) const { return trials_[i]; }
   const std::vector<PlannedTrial>& all_trials() const { return trials_; }
+  /// The place of a trial: cells of a group follow one another, and in each its replications.
+  std::size_t index(std::size_t group, std::size_t cell, int replication) const;
   std::int64_t seed(const PlannedTrial& trial) const { return study_.seed + trial.replication; }
 
   /// `construction, behaviour = rigid_registration, seed 3`.
@@ -83,6 +85,7 @@ class StudyPlan {
   Study study_;
   std::vector<PlannedGroup> groups_;
   std::vector<PlannedTrial> trials_;
+  std::vector<std::size_t> first_trial_;  // of each group
 };
 
 }  // namespace shoal::analysis

@@ -14,10 +14,10 @@ namespace shoal::analysis {
 
 /// A number that tables and claims ask of every trial: a metric, or a series at some place.
 struct Question {
-  std::string metric;                ///< or "" for a series
-  std::string series;                ///< its name
-  std::string against;               ///< the series that `at` is a value of; "" for time
-  double at = 0.0;                   ///< s, or the unit of `against`
+  std::string metric;   ///< or "" for a series
+  std::string series;   ///< its name
+  std::string against;  ///< the series that `at` is a value of; "" for time
+  double at = 0.0;      ///< s, or the unit of `against`
 };
 
 /// What is stored of the trials that a study asks for, by their places in the plan.
@@ -35,8 +35,8 @@ class StudyResults {
   std::size_t count(State state) const;
   const std::string& failure(std::size_t trial) const { return failures_[trial]; }
 
-  /// Nothing if the trial is missing or failed, or if what is asked for has no value there: a metric
-  /// that is null, a series that begins later or ends before.
+  /// Nothing if the trial is missing or failed, or if what is asked for has no value there: a
+  /// metric that is null, a series that begins later or ends before.
   std::optional<double> answer(const Question& question, std::size_t trial) const;
 
   const scenarios::Series* series(const std::string& name, std::size_t trial) const;

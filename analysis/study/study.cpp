@@ -7,6 +7,7 @@
 #include "shoal/analysis/measure.hpp"
 #include "shoal/core/text.hpp"
 #include "shoal/scenarios/library_path.hpp"
+#include "shoal/scenarios/toml_file.hpp"
 
 namespace shoal::analysis {
 namespace {
@@ -76,6 +77,22 @@ void require_known_quantities(const Study& study) {
   }
 }
 
+/// What trials are to yield must be known before the first one runs.
+void require_quantities(const Study& study) {
+  for (const std::string& name : study.series) known_series(name, study.origin);
+  for (const TableRequest& table : study.tables) {
+    for (const std::string& name : table.metrics) known_value(name, table.origin);
+    for (const std::string& name : table.series) known_series(name, table.origin);
+    if (!table.against.empty()) known_series(table.against, table.origin);
+  }
+  for (const ComparisonRequest& comparison : study.comparisons) {
+    for (const std::string& name : comparison.metrics) known_value(name, comparison.origin);
+  }
+  for (const SensitivityRequest& sensitivity : study.sensitivities) {
+    for (const std::string& name : sensitivity.metrics) known_value(name, sensitivity.origin);
+  }
+}
+
 std::optional<std::string> name_complaint(const std::string& name, const std::string& noun) {
   if (name.empty()) return noun + " needs a name";
   const bool plain = name.find_first_not_of(
@@ -90,6 +107,15 @@ template <class Request>
 void declare_scope(Options<Request>& o) {
   o.text("name", &Request::name, "of its files, and its label in LaTeX");
   o.text("caption", &Request::caption, "what the table shows");
+}
+
+template <class Request>
+void declare_test(Options<Request>& o) {
+  o.word("test", &Request::test,
+         {{"sign_flip", PairedTest::sign_flip},
+          {"wilcoxon", PairedTest::wilcoxon},
+          {"paired_t", PairedTest::paired_t}},
+         "test of paired differences, corrected by Holm over the whole table");
 }
 
 }  // namespace
@@ -145,6 +171,7 @@ void TableRequest::declare(Options<TableRequest>& o) {
          {{"none", Best::none}, {"lowest", Best::lowest}, {"highest", Best::highest}},
          "the value set in bold where a test corrected over the table tells it from all others");
   o.text("compare", &T::compare, "the factor whose levels compete for the best value");
+  declare_test(o);
 }
 
 std::optional<std::string> TableRequest::complaint() const {
@@ -169,11 +196,7 @@ void ComparisonRequest::declare(Options<ComparisonRequest>& o) {
   o.text("factor", &C::factor, "the factor whose levels are compared");
   o.text("reference", &C::reference, "the level that the others are compared with");
   o.texts("metrics", &C::metrics, "what is compared (shoal list measures)");
-  o.word("test", &C::test,
-         {{"sign_flip", PairedTest::sign_flip},
-          {"wilcoxon", PairedTest::wilcoxon},
-          {"paired_t", PairedTest::paired_t}},
-         "test of the paired differences, corrected by Holm over the whole table");
+  declare_test(o);
   o.number("resolve_percent", &C::resolve_percent, "%", above(0),
            "the last column says how many replications would show a difference so large");
 }
@@ -216,7 +239,7 @@ void Study::declare(Options<Study>& o) {
   o.texts(
       "series", &Study::series,
       "numbers against time to store of every trial, besides those that tables and claims name");
-  o.file("claims", &Study::claims, "a file of statements to test on the trials");
+  o.file("claims", &Study::claims_file, "a file of statements to test on the trials");
 }
 
 std::optional<std::string> Study::complaint() const {
@@ -234,6 +257,10 @@ Study read_study(const Setting& root) {
   Study study;
   study.written = with_groups(root);
   read(study, study.written, "");
+  if (!study.claims_file.path.empty()) {
+    study.claims = read_claims(scenarios::read_toml(scenarios::resolved(study.claims_file)));
+  }
+  require_quantities(study);
   std::set<std::string> names;
   require_names(study.tables, names);
   require_names(study.comparisons, names);

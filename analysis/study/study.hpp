@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "shoal/analysis/design.hpp"
+#include "shoal/analysis/study/claim_request.hpp"
 #include "shoal/analysis/study/factor.hpp"
 #include "shoal/core/registry.hpp"
 
@@ -57,6 +58,7 @@ struct TableRequest {
   Statistic statistic = Statistic::mean_ci;
   Best best = Best::none;
   std::string compare;  ///< the factor whose levels compete for the best value
+  PairedTest test = PairedTest::sign_flip;
   Origin origin;
 
   static constexpr const char* noun = "a table";
@@ -104,7 +106,8 @@ struct Study {
   std::vector<TableRequest> tables;
   std::vector<ComparisonRequest> comparisons;
   std::vector<SensitivityRequest> sensitivities;
-  FilePath claims;
+  FilePath claims_file;
+  std::vector<Claim> claims;
   std::vector<std::string> series;  ///< stored of every trial, besides those that tables name
   Setting written;                  ///< what all this was read from
   Origin origin;
@@ -114,8 +117,9 @@ struct Study {
   std::optional<std::string> complaint() const;
 };
 
-/// Reads a study and checks all that can be checked without its scenarios. A study of one group may
-/// write its scenario, factors, exclusions and design without [[group]]. Throws InputError.
+/// Reads a study, with its claims, and checks all that can be checked without its scenarios. A
+/// study of one group may write its scenario, factors, exclusions and design without [[group]].
+/// Throws InputError.
 Study read_study(const Setting& root);
 
 /// The file of a study given by path, or by its name among those that ship. Throws InputError.

@@ -130,7 +130,8 @@ void write_study(const StudyPlan& plan, const fs::path& folder) {
     for (Setting& factor : *factors) make_factor_absolute(factor);
   }
   if (Setting* claims = written.find("claims")) {
-    write_whole_file(folder / "claims.toml", text_of(scenarios::resolved(plan.study().claims)));
+    write_whole_file(folder / "claims.toml",
+                     text_of(scenarios::resolved(plan.study().claims_file)));
     claims->value = std::string("claims.toml");
   }
   write_whole_file(folder / "study.toml", to_toml(written));

@@ -1,0 +1,16 @@
+#pragma once
+
+#include "shoal/analysis/study/results.hpp"
+#include "shoal/analysis/study/study.hpp"
+#include "shoal/analysis/tables/table.hpp"
+
+namespace shoal::analysis {
+
+/// Paired differences of every level of a factor from a reference level, on common seeds: their
+/// mean with Student's 95 % interval, the p-value corrected by Holm over the table, two effect
+/// sizes, and how many replications would show a difference of a given share of the reference's
+/// mean (two-sided 5 % test with a power of 80 %). Throws InputError if the study does not have
+/// what it asks for.
+Table difference_table(const ComparisonRequest& request, const StudyResults& results);
+
+}  // namespace shoal::analysis

@@ -1,0 +1,170 @@
+#include "shoal/analysis/study/slices.hpp"
+
+#include <algorithm>
+#include <numeric>
+#include <unordered_map>
+
+#include "shoal/core/text.hpp"
+
+namespace shoal::analysis {
+namespace {
+
+bool contains(const std::vector<std::string>& names, const std::string& name) {
+  return std::ranges::find(names, name) != names.end();
+}
+
+std::size_t place_of(const std::vector<std::string>& labels, const std::string& label) {
+  return static_cast<std::size_t>(std::ranges::find(labels, label) - labels.begin());
+}
+
+struct SelectedCell {
+  std::size_t group, cell;
+  std::vector<std::size_t> labels;  ///< one a dimension of all, by its place there
+};
+
+/// All that could be a dimension, and the cells that a scope selects.
+struct Selected {
+  std::vector<Dimension> all;
+  std::vector<SelectedCell> cells;
+};
+
+std::vector<std::string> names_of(const std::vector<Dimension>& dimensions) {
+  std::vector<std::string> names;
+  for (const Dimension& dimension : dimensions) names.push_back(dimension.name);
+  return names;
+}
+
+Selected selected(const StudyPlan& plan, const Scope& scope) {
+  Selected selected;
+  const std::vector<std::size_t> groups = places_of_groups(scope.groups, plan, scope.origin);
+  if (groups.size() > 1) selected.all.push_back({group_column, "", {}});
+  for (const std::size_t g : groups) {
+    const PlannedGroup& group = plan.groups()[g];
+    for (std::size_t i = 0; i < group.columns().size(); ++i) {
+      if (contains(names_of(selected.all), group.columns()[i])) continue;
+      selected.all.push_back({group.columns()[i], group.units()[i], {}});
+    }
+  }
+  const std::vector<std::string> names = names_of(selected.all);
+  std::vector<std::unordered_map<std::string, std::size_t>> known(names.size());
+  for (const auto& [name, labels] : scope.where.wanted()) {
+    if (contains(names, name)) continue;
+    throw InputError(
+        scope.origin,
+        "where names \"" + name + "\", which is no factor of the groups" + suggestion(name, names));
+  }
+  for (const std::size_t g : groups) {
+    const PlannedGroup& group = plan.groups()[g];
+    for (std::size_t cell = 0; cell < group.cells(); ++cell) {
+      std::vector<std::string> labels(names.size());  // "" where the group has no such factor
+      for (std::size_t d = 0; d < names.size(); ++d) {
+        if (groups.size() > 1 && d == 0) {
+          labels[d] = group.name();
+        } else if (contains(group.columns(), names[d])) {
+          labels[d] = group.labels(cell)[place_of(group.columns(), names[d])];
+        }
+      }
+      if (!scope.where.holds(names, labels)) continue;
+      SelectedCell& member = selected.cells.emplace_back(SelectedCell{g, cell, {}});
+      for (std::size_t d = 0; d < names.size(); ++d) {
+        const auto [at, fresh] = known[d].emplace(labels[d], known[d].size());
+        if (fresh) selected.all[d].labels.push_back(labels[d]);
+        member.labels.push_back(at->second);
+      }
+    }
+  }
+  if (selected.cells.empty()) {
+    throw InputError(scope.origin, "no cell of the study has " + scope.where.text());
+  }
+  return selected;
+}
+
+}  // namespace
+
+std::vector<std::size_t> places_of_groups(const std::vector<std::string>& names,
+                                          const StudyPlan& plan, const Origin& origin) {
+  std::vector<std::string> known;
+  for (const PlannedGroup& group : plan.groups()) known.push_back(group.name());
+  std::vector<std::size_t> places;
+  for (const std::string& name : names) {
+    if (!contains(known, name)) {
+      throw InputError(origin, "the study has no group \"" + name + '"' + suggestion(name, known));
+    }
+    places.push_back(place_of(known, name));
+  }
+  if (names.empty()) {
+    places.resize(known.size());
+    std::iota(places.begin(), places.end(), std::size_t{0});
+  }
+  return places;
+}
+
+std::vector<double> Sample::minus(const Sample& other) const {
+  std::vector<double> differences;
+  std::map<std::string, double> others;
+  for (std::size_t k = 0; k < other.values.size(); ++k) others[other.pairs[k]] = other.values[k];
+  for (std::size_t k = 0; k < values.size(); ++k) {
+    const auto found = others.find(pairs[k]);
+    if (found != others.end()) differences.push_back(values[k] - found->second);
+  }
+  return differences;
+}
+
+Slices::Slices(const StudyResults& results, const Scope& scope) : results_(results) {
+  const StudyPlan& plan = results.plan();
+  const Selected found = selected(plan, scope);
+  const std::vector<std::string> names = names_of(found.all);
+  for (const auto* list : {&scope.kept, &scope.pooled}) {
+    for (const std::string& name : *list) {
+      if (contains(names, name)) continue;
+      throw InputError(scope.origin,
+                       "there is no factor \"" + name + "\" to show" + suggestion(name, names));
+    }
+  }
+  std::vector<std::size_t> kept;
+  for (const std::string& name : scope.kept) kept.push_back(place_of(names, name));
+  std::vector<std::size_t> pooled;
+  for (std::size_t d = 0; d < names.size(); ++d) {
+    if (contains(scope.kept, names[d])) continue;
+    if (contains(scope.pooled, names[d])) {
+      pooled.push_back(d);
+    } else if (found.all[d].labels.size() > 1 && scope.keep_rest) {
+      kept.push_back(d);
+    } else if (found.all[d].labels.size() > 1) {
+      throw InputError(scope.origin, "the factor " + names[d] + " has several levels here (" +
+                                         listed(found.all[d].labels) +
+                                         "); name it in rows or columns, choose one with where, or "
+                                         "take them together with pool");
+    }
+  }
+  for (const std::size_t d : kept) dimensions_.push_back(found.all[d]);
+
+  for (const SelectedCell& cell : found.cells) {
+    std::vector<std::size_t> place;
+    for (const std::size_t d : kept) place.push_back(cell.labels[d]);
+    std::string pair;
+    for (const std::size_t d : pooled) pair += std::to_string(cell.labels[d]) + "|";
+    std::vector<Member>& members = trials_[place];
+    for (int k = 0; k < plan.groups()[cell.group].replications(); ++k) {
+      members.push_back({plan.index(cell.group, cell.cell, k), pair + std::to_string(k)});
+    }
+  }
+  for (const auto& [place, members] : trials_) places_.push_back(place);
+}
+
+Sample Slices::sample(const std::vector<std::size_t>& place, const Question& question) const {
+  Sample sample;
+  const auto found = trials_.find(place);
+  if (found == trials_.end()) return sample;
+  for (const Member& member : found->second) {
+    if (results_.state(member.trial) != StudyResults::State::done) {
+      ++sample.failed;
+    } else if (const std::optional<double> answer = results_.answer(question, member.trial)) {
+      sample.values.push_back(*answer);
+      sample.pairs.push_back(member.pair);
+    }
+  }
+  return sample;
+}
+
+}  // namespace shoal::analysis

@@ -1,0 +1,139 @@
+#include "shoal/analysis/study/study_tables.hpp"
+
+#include <fmt/format.h>
+
+#include <set>
+
+#include "shoal/analysis/study/cell_table.hpp"
+#include "shoal/analysis/study/difference_table.hpp"
+#include "shoal/analysis/study/needed_series.hpp"
+#include "shoal/analysis/trial.hpp"
+#include "shoal/core/whole_file.hpp"
+
+namespace shoal::analysis {
+namespace {
+
+namespace fs = std::filesystem;
+
+const std::vector<std::string>& usual_metrics() {
+  static const std::vector<std::string> metrics{"energy_mean_wh", "thrust_time_ratio_mean",
+                                                "quality_settled_m", "time_to_quality_20m_s"};
+  return metrics;
+}
+
+std::vector<std::string> needed_metrics(const Study& study) {
+  std::set<std::string> names(usual_metrics().begin(), usual_metrics().end());
+  for (const TableRequest& table : study.tables) {
+    names.insert(table.metrics.begin(), table.metrics.end());
+  }
+  for (const ComparisonRequest& comparison : study.comparisons) {
+    names.insert(comparison.metrics.begin(), comparison.metrics.end());
+  }
+  for (const SensitivityRequest& sensitivity : study.sensitivities) {
+    names.insert(sensitivity.metrics.begin(), sensitivity.metrics.end());
+  }
+  for (const Claim& claim : study.claims) {
+    if (!claim.metric.empty()) names.insert(claim.metric);
+  }
+  return {names.begin(), names.end()};
+}
+
+TableRequest usual_table(const PlannedGroup& group) {
+  TableRequest request;
+  request.name = group.name().empty() ? "results" : group.name();
+  request.groups = {group.name()};
+  request.metrics = usual_metrics();
+  // One row of all that a design drew: cells that are met once have no scatter.
+  if (group.sampled()) request.pool = group.columns();
+  return request;
+}
+
+}  // namespace
+
+StudyResults read_results(const StudyPlan& plan, const fs::path& folder) {
+  const Store store(folder, Store::Access::read);
+  return {plan, store, needed_metrics(plan.study()), needed_series(plan.study())};
+}
+
+std::vector<Table> study_tables(const StudyResults& results) {
+  const Study& study = results.plan().study();
+  std::vector<Table> tables;
+  for (const TableRequest& request : study.tables) tables.push_back(cell_table(request, results));
+  for (const ComparisonRequest& request : study.comparisons) {
+    tables.push_back(difference_table(request, results));
+  }
+  if (!tables.empty()) return tables;
+  for (const PlannedGroup& group : results.plan().groups()) {
+    tables.push_back(cell_table(usual_table(group), results));
+  }
+  return tables;
+}
+
+std::vector<JudgedClaim> judged_claims(const StudyResults& results) {
+  std::vector<JudgedClaim> judged;
+  for (const Claim& claim : results.plan().study().claims) {
+    judged.push_back({claim, test_claim(claim, results)});
+  }
+  return judged;
+}
+
+std::string contrast_text(const ContrastResult& contrast) {
+  std::string text = contrast.title.empty() ? "" : contrast.title + ": ";
+  if (!contrast.mean) return text + "no value";
+  text += fmt::format("{:.4g}", *contrast.mean);
+  if (contrast.low) text += fmt::format(" [{:.4g}, {:.4g}]", *contrast.low, *contrast.high);
+  return text + fmt::format(", n = {}", contrast.n);
+}
+
+Table claims_table(const std::vector<JudgedClaim>& claims) {
+  Table table{"claims",
+              "Statements, and what the trials say to them",
+              {{.header = "section"},
+               {.header = "statement"},
+               {.header = "verdict"},
+               {.header = "numbers"}},
+              {},
+              {}};
+  for (const JudgedClaim& each : claims) {
+    std::string numbers;
+    for (const ContrastResult& contrast : each.result.contrasts) {
+      numbers += (numbers.empty() ? "" : "; ") + contrast_text(contrast);
+    }
+    if (each.result.replications_needed) {
+      numbers +=
+          fmt::format("; about {} replications would decide", *each.result.replications_needed);
+    }
+    if (each.result.verdict == Verdict::contradicted && !each.claim.cause.empty()) {
+      numbers += "; likely cause: " + each.claim.cause;
+    }
+    table.rows.push_back(
+        {each.claim.section, each.claim.says, std::string(name_of(each.result.verdict)), numbers});
+  }
+  table.notes.push_back(
+      "Means with 95 % intervals (Student). Reproduced: every interval lies where the statement "
+      "holds. "
+      "Contradicted: one lies where it does not, corrected for their number.");
+  return table;
+}
+
+void write_tables(const std::vector<Table>& tables, const fs::path& folder) {
+  const fs::path place = folder / "tables";
+  require_writable(place);
+  std::set<fs::path> written;
+  for (const Table& table : tables) {
+    for (const auto& [extension, format] :
+         {std::pair{".tex", TableFormat::latex}, std::pair{".csv", TableFormat::csv},
+          std::pair{".md", TableFormat::markdown}}) {
+      const fs::path file = place / (table.name + extension);
+      write_whole_file(file, print(table, format));
+      written.insert(file);
+    }
+  }
+  for (const fs::directory_entry& entry : fs::directory_iterator(place)) {
+    const fs::path extension = entry.path().extension();
+    const bool a_table = extension == ".tex" || extension == ".csv" || extension == ".md";
+    if (a_table && !written.contains(entry.path())) fs::remove(entry.path());
+  }
+}
+
+}  // namespace shoal::analysis

@@ -1,0 +1,33 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "shoal/analysis/study/claim.hpp"
+#include "shoal/analysis/study/results.hpp"
+#include "shoal/analysis/tables/table.hpp"
+
+namespace shoal::analysis {
+
+/// What the tables and claims of a study need, read from its store.
+StudyResults read_results(const StudyPlan& plan, const std::filesystem::path& folder);
+
+/// Every table that the study asks for, in its order; a study that asks for none gets one for each
+/// group: every factor in the rows, a few metrics in the columns. Throws InputError.
+std::vector<Table> study_tables(const StudyResults& results);
+
+struct JudgedClaim {
+  Claim claim;
+  ClaimResult result;
+};
+std::vector<JudgedClaim> judged_claims(const StudyResults& results);
+/// `rigid - pairwise: -1.2 [-3.4, 1.0], n = 5`.
+std::string contrast_text(const ContrastResult& contrast);
+/// Section, statement, verdict and numbers of every claim.
+Table claims_table(const std::vector<JudgedClaim>& claims);
+
+/// Writes tables/NAME.{tex,csv,md} into the folder, and takes away what earlier tables left there.
+void write_tables(const std::vector<Table>& tables, const std::filesystem::path& folder);
+
+}  // namespace shoal::analysis
