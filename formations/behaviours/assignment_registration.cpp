@@ -42,7 +42,7 @@ class AssignmentRegistration final : public Behaviour {
     collect(seen, plan.size(), points);
     if (points.size() < 2) return Target::hold(Reason::no_neighbour);
 
-    const solvers::MatchingSolution match = matcher_->solve(matching(points, plan));
+    const solvers::MatchingSolution match = matcher_->solve(matching(points, plan, seen.own_slot));
     if (!match.usable()) return Target::hold(Reason::solver_failed);
 
     thread_local std::vector<solvers::PointPair> pairs;
@@ -67,9 +67,9 @@ class AssignmentRegistration final : public Behaviour {
   }
 
  private:
-  solvers::MatchingProblem matching(std::span<const Eigen::Vector2d> points,
-                                    const Plan& plan) const {
-    return {points, plan.slots(), options_.ownship_weight, options_.delta_theta_deg};
+  solvers::MatchingProblem matching(std::span<const Eigen::Vector2d> points, const Plan& plan,
+                                    int asker = -1) const {
+    return {points, plan.slots(), options_.ownship_weight, options_.delta_theta_deg, asker};
   }
 
   void pair_up(std::span<const Eigen::Vector2d> points, const solvers::MatchingSolution& match,

@@ -21,6 +21,9 @@ struct MatchingProblem {
   std::span<const Eigen::Vector2d> slots;
   double ownship_weight = 1.0;    ///< of points[0]; the others weigh 1
   double delta_theta_deg = 10.0;  ///< step between the rotations tried, for searches that sample
+  /// A small number of who asks, or -1. What he was told last may make the next answer quicker, and
+  /// never another one.
+  int asker = -1;
 };
 
 enum class MatchingStatus : std::uint8_t { matched, bad_input };

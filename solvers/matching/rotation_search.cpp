@@ -83,7 +83,9 @@ double RotationSearch::bound_below(const AlignedSlots& slots) const {
   return sum;
 }
 
-TurnedMatch RotationSearch::search(const Turns& turns, const AlignedSlots& slots, double limit) {
+TurnedMatch RotationSearch::search(const Turns& turns, const AlignedSlots& slots, double limit,
+                                   double margin) {
+  cost_of_turn_.clear();
   const int rows = static_cast<int>(points_.size());
   if (rows > slots.size()) throw std::invalid_argument("rotation search: more points than slots");
 
@@ -103,7 +105,7 @@ TurnedMatch RotationSearch::search(const Turns& turns, const AlignedSlots& slots
     if (assignment_.solve_similar(costs_, limit) != AssignmentStatus::optimal) continue;
     cost_of_turn_[at(turn)] = assignment_.cost();
     least = std::min(least, assignment_.cost());
-    limit = std::min(limit, least + cost_tie_m);
+    limit = std::min(limit, least + margin + cost_tie_m);
   }
   if (least == infinity) return {};
   int winner = 0;

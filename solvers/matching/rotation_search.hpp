@@ -68,8 +68,21 @@ class RotationSearch {
 
   /// Looks for turns that cost at most `limit`. Throws std::invalid_argument for more points than
   /// slots.
+  ///
+  /// Turns that cost up to `margin` more than the least are not ruled out either: visit_turns()
+  /// shows them.
   TurnedMatch search(const Turns& turns, const AlignedSlots& slots,
-                     double limit = std::numeric_limits<double>::infinity());
+                     double limit = std::numeric_limits<double>::infinity(), double margin = 0.0);
+
+  /// Calls `visit(turn, cost)` for the turns that the last search did not rule out: all that cost
+  /// less than its limit, and less than the least and the margin.
+  template <class Visit>
+  void visit_turns(Visit&& visit) const {
+    for (std::size_t turn = 0; turn < cost_of_turn_.size(); ++turn) {
+      const double cost = cost_of_turn_[turn];
+      if (cost < std::numeric_limits<double>::infinity()) visit(static_cast<int>(turn), cost);
+    }
+  }
 
   /// The optimal assignment at one turn: slot_of_point() and cost() hold it.
   void match(const Turns& turns, const AlignedSlots& slots, int turn);

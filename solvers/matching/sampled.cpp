@@ -1,5 +1,7 @@
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <optional>
 #include <tuple>
 
 #include "shoal/core/angles.hpp"
@@ -26,6 +28,30 @@ struct SampledOptions {
   }
 };
 
+// Metres. The wider, the longer it holds, and the more matches there are to look at.
+constexpr double margin_m = 60.0;
+constexpr std::size_t most_candidates = 8;
+constexpr int longest_pause = 32;
+
+/// The matches that were worth a look when somebody asked, for when he asks again.
+///
+/// A distance changes by no more than its point has moved. So while the points have moved by less
+/// than the margin in all, every other match still costs more than the best of these did.
+struct Recollection {
+  struct Candidate {
+    std::size_t subset;
+    int turn;
+    double cost;
+  };
+
+  std::int64_t edition = 0;  ///< of the subsets; 0: nothing is remembered
+  std::vector<Eigen::Vector2d> points;
+  std::vector<Candidate> candidates;  ///< by subset, then by turn
+  double others = 0.0;                ///< all other matches cost this, or more
+  // To remember is dearer than to find: who moves far between two questions does so now and then.
+  int pause = 0, next_pause = 1;
+};
+
 // What is kept from call to call of a thread.
 struct Workspace {
   struct Visit {
@@ -40,6 +66,7 @@ struct Workspace {
   std::vector<Visit> visits;
   std::vector<TurnedMatch> found;
   std::vector<int> slot_of_point;
+  std::vector<Recollection> recollections;  // by asker
   // What won last. Whoever asks again has hardly moved: it bounds the search, whatever it is.
   std::size_t last_subset = 0;
   int last_turn = 0;
@@ -80,13 +107,69 @@ class Sampled final : public Matcher {
     const auto& subsets =
         work.subsets.of(static_cast<int>(problem.points.size()), problem.slots,
                         {.tie_m = options_.tie_m, .seed_weight = own_weight}, work.turns);
-    return assemble(subsets, best_of(subsets, work), work);
+    Recollection* last = nullptr;
+    if (problem.asker >= 0) {
+      const auto asker = static_cast<std::size_t>(problem.asker);
+      if (work.recollections.size() <= asker) work.recollections.resize(asker + 1);
+      last = &work.recollections[asker];
+      if (const auto best = remembered(*last, subsets, work)) return assemble(subsets, *best, work);
+    }
+    return assemble(subsets, best_of(subsets, last, work), work);
   }
 
  private:
+  struct Place {
+    std::size_t subset;
+    int turn;
+  };
+
+  /// The best match, if it is certain to be one of those remembered.
+  static std::optional<Place> remembered(Recollection& last, const std::vector<SlotSubset>& subsets,
+                                         Workspace& work) {
+    if (last.edition != work.subsets.edition() || last.points.size() != work.points.size()) {
+      return std::nullopt;
+    }
+    double moved = 0.0;
+    for (std::size_t i = 0; i < work.points.size(); ++i) {
+      moved += (work.points[i] - last.points[i]).norm();
+    }
+    if (moved > margin_m) return std::nullopt;
+    double least = std::numeric_limits<double>::infinity();
+    for (Recollection::Candidate& candidate : last.candidates) {
+      work.search.match(work.turns, subsets[candidate.subset].aligned, candidate.turn);
+      candidate.cost = work.search.cost();
+      least = std::min(least, candidate.cost);
+    }
+    // Ties reach from the best match over that of its subset to its first turn.
+    if (least + 4.0 * cost_tie_m > last.others - moved) return std::nullopt;
+    last.pause = 0;
+    last.next_pause = 1;
+    return first_of_the_least(last.candidates, least);
+  }
+
+  /// The first subset whose first turn of the least is one of the least.
+  static Place first_of_the_least(const std::vector<Recollection::Candidate>& candidates,
+                                  double least) {
+    for (auto first = candidates.begin();;) {
+      const auto end = std::find_if(first, candidates.end(),
+                                    [&](const auto& c) { return c.subset != first->subset; });
+      const double least_here = std::min_element(first, end, [](const auto& a, const auto& b) {
+                                  return a.cost < b.cost;
+                                })->cost;
+      while (first->cost > least_here + cost_tie_m) ++first;
+      if (first->cost <= least + cost_tie_m) return {first->subset, first->turn};
+      first = end;
+    }
+  }
+
   // Promising subsets come first, so that the others are soon ruled out; which one wins does not
   // depend on that order.
-  std::size_t best_of(const std::vector<SlotSubset>& subsets, Workspace& work) const {
+  static Place best_of(const std::vector<SlotSubset>& subsets, Recollection* last,
+                       Workspace& work) {
+    const bool remember = last && worth_remembering(*last);
+    const double margin = remember ? margin_m : 0.0;
+    if (last) last->edition = 0;
+    if (remember) last->candidates.clear();
     work.visits.clear();
     for (std::size_t i = 0; i < subsets.size(); ++i) {
       work.visits.push_back({i, work.search.bound_below(subsets[i].aligned)});
@@ -100,30 +183,55 @@ class Sampled final : public Matcher {
     double least = work.search.cost();
     for (const auto& [subset, bound_below] : work.visits) {
       // One tie between subsets and one between turns.
-      const double limit = least + 2.0 * cost_tie_m;
+      const double limit = least + margin + 2.0 * cost_tie_m;
       if (bound_below > limit) break;
-      work.found[subset] = work.search.search(work.turns, subsets[subset].aligned, limit);
+      work.found[subset] = work.search.search(work.turns, subsets[subset].aligned, limit, margin);
       least = std::min(least, work.found[subset].cost);
+      if (!remember) continue;
+      work.search.visit_turns([&](int turn, double cost) {
+        last->candidates.push_back({subset, turn, cost});
+      });
     }
+    if (remember) keep(*last, least + margin, work);
     std::size_t winner = 0;
     while (work.found[winner].cost > least + cost_tie_m) ++winner;
     work.last_subset = winner;
     work.last_turn = work.found[winner].turn;
-    return winner;
+    return {winner, work.found[winner].turn};
   }
 
-  MatchingSolution assemble(const std::vector<SlotSubset>& subsets, std::size_t winner,
-                            Workspace& work) const {
-    const SlotSubset& subset = subsets[winner];
-    const int turn = work.found[winner].turn;
-    work.search.match(work.turns, subset.aligned, turn);
+  static bool worth_remembering(Recollection& last) {
+    if (last.pause > 0) {
+      --last.pause;
+      return false;
+    }
+    last.pause = last.next_pause;
+    last.next_pause = std::min(2 * last.next_pause, longest_pause);
+    return true;
+  }
+
+  static void keep(Recollection& last, double others, const Workspace& work) {
+    std::erase_if(last.candidates, [&](const auto& c) { return c.cost > others; });
+    if (last.candidates.size() > most_candidates) return;
+    std::ranges::sort(last.candidates, [](const auto& a, const auto& b) {
+      return std::tie(a.subset, a.turn) < std::tie(b.subset, b.turn);
+    });
+    last.points = work.points;
+    last.others = others;
+    last.edition = work.subsets.edition();
+  }
+
+  static MatchingSolution assemble(const std::vector<SlotSubset>& subsets, const Place& best,
+                                   Workspace& work) {
+    const SlotSubset& subset = subsets[best.subset];
+    work.search.match(work.turns, subset.aligned, best.turn);
     work.slot_of_point.clear();
     for (const int column : work.search.slot_of_point()) {
       work.slot_of_point.push_back(subset.slot[static_cast<std::size_t>(column)]);
     }
     return {.slot_of_point = work.slot_of_point,
             .cost = work.search.cost(),
-            .rotation = wrapped(work.turns.angle(turn)),
+            .rotation = wrapped(work.turns.angle(best.turn)),
             .status = MatchingStatus::matched};
   }
 

@@ -39,6 +39,7 @@ const std::vector<SlotSubset>& SlotSubsets::of(int points, std::span<const Eigen
     rule_ = rule;
     step_deg_ = turns.step_deg();
     by_points_.assign(slots.size() + 1, {});
+    ++edition_;
   }
   std::vector<SlotSubset>& subsets = by_points_[static_cast<std::size_t>(points)];
   if (!subsets.empty()) return subsets;

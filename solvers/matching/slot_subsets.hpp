@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -34,12 +35,16 @@ class SlotSubsets {
   const std::vector<SlotSubset>& of(int points, std::span<const Eigen::Vector2d> slots,
                                     const SubsetRule& rule, const Turns& turns);
 
+  /// Another number whenever the plan, the rule or the step has changed; above 0.
+  std::int64_t edition() const { return edition_; }
+
  private:
   SlotSubset around(int seed, int points);
 
   std::vector<Eigen::Vector2d> slots_;
   SubsetRule rule_;
   double step_deg_ = 0.0;
+  std::int64_t edition_ = 0;
   std::vector<std::vector<SlotSubset>> by_points_;
   std::vector<double> distance_, sorted_;
 };

@@ -18,6 +18,7 @@ struct Choices {
   double tie_m = 0.5;
   bool plain = false;
   double ownship_weight = 1.0;
+  int asker = -1;
 };
 
 std::unique_ptr<Matcher> sampled(const Choices& choices) {
@@ -35,8 +36,8 @@ struct Answer {
 
 Answer matched(const std::vector<Vector2d>& points, const std::vector<Vector2d>& slots,
                const Choices& choices) {
-  const auto s =
-      sampled(choices)->solve({points, slots, choices.ownship_weight, choices.delta_theta_deg});
+  const auto s = sampled(choices)->solve(
+      {points, slots, choices.ownship_weight, choices.delta_theta_deg, choices.asker});
   return {{s.slot_of_point.begin(), s.slot_of_point.end()}, s.cost, s.rotation, s.usable()};
 }
 
@@ -105,6 +106,60 @@ TEST(Sampled, CostsWhatThePlainLoopOverSeedsAndTurnsCosts) {
     ASSERT_TRUE(answer.usable);
     EXPECT_NEAR(answer.cost, plain_loop(points, slots, choices).cost, 2.0 * cost_tie_m)
         << "trial " << trial;
+  }
+}
+
+// Somebody in the middle of a swarm that turns, spreads and jitters, and at times jumps.
+std::vector<Vector2d> seen_at(int step, const std::vector<Vector2d>& slots,
+                              std::mt19937& generator) {
+  std::normal_distribution<double> jitter(0.0, step % 23 == 0 ? 15.0 : 0.2);
+  const double turn = radians(0.1 * step), spread = 1.0 + 0.0005 * step;
+  std::vector<Vector2d> points = {Vector2d::Zero()};
+  for (const Vector2d& slot : slots) {
+    const Vector2d placed = spread * (slot - slots[7]);
+    const Vector2d from_here(std::cos(turn) * placed.x() - std::sin(turn) * placed.y(),
+                             std::sin(turn) * placed.x() + std::cos(turn) * placed.y());
+    const bool heard = placed.norm() < (step % 200 < 100 ? 650.0 : 500.0);
+    if (&slot == &slots[7] || !heard) continue;
+    points.push_back(from_here + Vector2d(jitter(generator), jitter(generator)));
+  }
+  return points;
+}
+
+TEST(Sampled, TellsWhoAsksAgainWhatItTellsAnybody) {
+  std::mt19937 generator(4);
+  const std::vector plans{lattice(4, 5, 300.0), hexagonal(4, 5, 300.0)};
+  for (const double delta_theta_deg : {10.0, 45.0}) {
+    for (int step = 0; step < 800; ++step) {
+      // Two vehicles take turns; now and then they are asked about another plan.
+      const auto& slots = plans[step % 150 < 120 ? 0 : 1];
+      const auto points = seen_at(step, slots, generator);
+      Choices choices{.delta_theta_deg = delta_theta_deg, .plain = step % 300 < 150};
+      const Answer anybody = matched(points, slots, choices);
+      for (const int asker : {0, 5}) {
+        choices.asker = asker;
+        const Answer again = matched(points, slots, choices);
+        ASSERT_EQ(again.slot_of_point, anybody.slot_of_point) << step;
+        ASSERT_EQ(again.cost, anybody.cost) << step;
+        ASSERT_EQ(again.rotation, anybody.rotation) << step;
+      }
+    }
+  }
+}
+
+TEST(Sampled, BreaksTiesForWhoAsksAgainAsForAnybody) {
+  // On the lattice itself, and half-way between two turns: many matches cost the same.
+  for (const double turned_deg : {0.0, 5.0, 45.0, 90.0}) {
+    const auto slots = lattice(3, 3, 100.0);
+    const auto placed = tests::moved(slots, Transform2::from_angle(radians(turned_deg), {3, 4}));
+    const Answer anybody = matched(placed, slots, {.delta_theta_deg = 10.0});
+    for (int i = 0; i < 5; ++i) {
+      auto shaken = placed;
+      for (Vector2d& p : shaken) p *= 1.0 + 1e-9 * i;
+      const Answer again = matched(shaken, slots, {.delta_theta_deg = 10.0, .asker = 1});
+      EXPECT_EQ(again.slot_of_point, anybody.slot_of_point) << turned_deg;
+      EXPECT_EQ(again.rotation, anybody.rotation) << turned_deg;
+    }
   }
 }
 
