@@ -47,8 +47,7 @@ void tables(const std::string& folder, bool summary) {
   // After a sweep, the first table: the one that the study begins with.
   const std::size_t shown = summary ? std::min<std::size_t>(1, tables.size()) : tables.size();
   for (std::size_t i = 0; i < shown; ++i) {
-    fmt::print("{}{}\n{}\n", tables[i].name,
-               tables[i].caption.empty() ? "" : ": " + tables[i].caption,
+    fmt::print("{}:\n{}\n", tables[i].name,
                analysis::print(tables[i], analysis::TableFormat::text));
   }
   write_all(results, tables, claims, folder);

@@ -61,7 +61,7 @@ std::vector<ClaimScope> scopes(const Claim& claim, const Question& question,
 }
 
 ContrastResult judged(const Contrast& contrast, double corrected_level) {
-  ContrastResult result{contrast.title, static_cast<int>(contrast.numbers.size()), {}, {}, {}, {}};
+  ContrastResult result{.title = contrast.title, .n = static_cast<int>(contrast.numbers.size())};
   if (contrast.numbers.empty()) return result;
   result.mean = statistics::mean(contrast.numbers);
   const auto interval = statistics::t_interval(contrast.numbers, level);

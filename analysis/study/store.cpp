@@ -86,7 +86,9 @@ class Statement {
     }
   }
   void bind(int i, std::span<const double> numbers) {
-    sqlite3_bind_blob64(statement_, i, numbers.data(), numbers.size_bytes(), SQLITE_STATIC);
+    // An empty span may have no address, which SQLite would take for null.
+    const void* bytes = numbers.empty() ? "" : static_cast<const void*>(numbers.data());
+    sqlite3_bind_blob64(statement_, i, bytes, numbers.size_bytes(), SQLITE_STATIC);
   }
 
   /// Whether there is a row. Throws SystemError.
