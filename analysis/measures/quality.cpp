@@ -43,6 +43,8 @@ class Quality final : public Measure {
         {"quality_trend_m_per_h", "m/h", "slope of the quality in the last 60 % of the mission"},
         {"quality_oscillation_m", "m",
          "rms of the formed swarm's quality about its mean over 10 minutes"},
+        {"quality_swing_m", "m",
+         "how much the quality rises and falls again in the 10 minutes after the swarm formed"},
         {"energy_to_quality_20m_wh", "Wh", "mean energy spent until the quality was below 20 m"}};
   }
 
@@ -72,6 +74,7 @@ class Quality final : public Measure {
     results.add("quality_last_m", history.mean_m(last_from));
     results.add("quality_trend_m_per_h", history.trend_m_per_h(settled_from));
     results.add("quality_oscillation_m", history.oscillation_m());
+    results.add("quality_swing_m", history.swing_m());
     results.add("energy_to_quality_20m_wh", reached_wh_);
     results.add_series("quality", time_s_, quality_m_);
   }
