@@ -22,7 +22,7 @@ thrust_distance_ratio_spread path_straightness rotation_disagreement_deg
 rotation_disagreement_first_hour_deg""".split()
 # What five minutes are too short for.
 LATER = ["time_to_quality_20m_s", "energy_to_quality_20m_wh", "quality_oscillation_m",
-         "quality_swing_m"]
+         "quality_swing_m", "path_straightness"]
 SERIES = {
     "quality": "m", "energy_mean_wh": "W h", "energy_min_wh": "W h", "energy_max_wh": "W h",
     "centroid_path_m": "m", "efficiency_m_per_wh": "m W-1 h-1", "thrust_time_ratio_mean": "1",
