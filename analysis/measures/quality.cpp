@@ -22,6 +22,7 @@ class Quality final : public Measure {
     const scenarios::QualityOptions& options = world.scenario().quality;
     every_s_ = options.every_s;
     if (every_s_ <= 0.0) return;
+    for (std::size_t i = 0; i < world.size(); ++i) start_.push_back(position(world, i));
     if (world.size() > most_vehicles) {
       throw InputError(world.scenario().plan.setting().origin,
                        "the formation quality of " + std::to_string(world.size()) +
@@ -43,7 +44,12 @@ class Quality final : public Measure {
         {"quality_trend_m_per_h", "m/h", "slope of the quality in the last 60 % of the mission"},
         {"quality_oscillation_m", "m",
          "rms of the formed swarm's quality about its mean over 10 minutes"},
-        {"energy_to_quality_20m_wh", "Wh", "mean energy spent until the quality was below 20 m"}};
+        {"quality_swing_m", "m",
+         "how much the quality rises and falls again in the 10 minutes after the swarm formed"},
+        {"energy_to_quality_20m_wh", "Wh", "mean energy spent until the quality was below 20 m"},
+        {"path_straightness", "",
+         "distance from start / length of track, when the quality was first below 20 m, mean of "
+         "vehicles"}};
   }
 
   std::vector<Quantity> series() const override {
@@ -60,6 +66,7 @@ class Quality final : public Measure {
     reached_wh_ = over_survivors(world, [&](std::size_t i) {
                     return world.propulsion_wh(i) + world.hotel_wh(i) + world.comms_wh(i);
                   })->mean;
+    straightness_ = straightness(world);
   }
 
   void finish(const scenarios::World& world, Results& results) const override {
@@ -72,16 +79,32 @@ class Quality final : public Measure {
     results.add("quality_last_m", history.mean_m(last_from));
     results.add("quality_trend_m_per_h", history.trend_m_per_h(settled_from));
     results.add("quality_oscillation_m", history.oscillation_m());
+    results.add("quality_swing_m", history.swing_m());
     results.add("energy_to_quality_20m_wh", reached_wh_);
+    results.add("path_straightness", straightness_);
     results.add_series("quality", time_s_, quality_m_);
   }
 
  private:
+  static Eigen::Vector2d position(const scenarios::World& world, std::size_t i) {
+    return {world.swarm().x_m[i], world.swarm().y_m[i]};
+  }
+
+  /// Nothing as long as a vehicle has not moved.
+  std::optional<double> straightness(const scenarios::World& world) const {
+    const auto share = over_survivors(world, [&](std::size_t i) {
+      const double length_m = world.logbook(i).distance_m;
+      return length_m > 0.0 ? (position(world, i) - start_[i]).norm() / length_m : -1.0;
+    });
+    return share && share->least >= 0.0 ? std::optional(share->mean) : std::nullopt;
+  }
+
   std::shared_ptr<FormationQuality> metric_;
+  std::vector<Eigen::Vector2d> start_;
   std::vector<Eigen::Vector2d> positions_;
   std::vector<int> slots_;
   std::vector<double> time_s_, quality_m_;
-  std::optional<double> reached_s_, reached_wh_;
+  std::optional<double> reached_s_, reached_wh_, straightness_;
 };
 
 const Enrol<Measure, Quality> enrolled{

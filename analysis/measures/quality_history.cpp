@@ -10,6 +10,7 @@ namespace shoal::analysis {
 namespace {
 
 constexpr double half_window_s = 300.0;
+constexpr double to_rest_s = 600.0;
 constexpr double formed_ratio = 1.5;
 
 double mean_over(std::span<const double> numbers) {
@@ -48,17 +49,22 @@ std::optional<double> QualityHistory::trend_m_per_h(double from_share) const {
   return 3600.0 * rise / width;
 }
 
-std::optional<double> QualityHistory::oscillation_m() const {
+std::optional<std::size_t> QualityHistory::formed_at() const {
   const std::optional<double> settled = mean_m(settled_from);
   if (!settled) return std::nullopt;
-  const auto formed = static_cast<std::size_t>(
-      std::ranges::find_if(quality_m_, [&](double q) { return q <= formed_ratio * *settled; }) -
-      quality_m_.begin());
+  const auto formed =
+      std::ranges::find_if(quality_m_, [&](double q) { return q <= formed_ratio * *settled; });
+  return static_cast<std::size_t>(formed - quality_m_.begin());
+}
+
+std::optional<double> QualityHistory::oscillation_m() const {
+  const std::optional<std::size_t> formed = formed_at();
+  if (!formed) return std::nullopt;
   double sum = 0.0;
-  std::size_t count = 0, begin = formed, end = formed;
-  for (std::size_t k = formed; k < time_s_.size(); ++k) {
+  std::size_t count = 0, begin = *formed, end = *formed;
+  for (std::size_t k = *formed; k < time_s_.size(); ++k) {
     // Only where the whole window lies in the mission and after the forming.
-    if (time_s_[k] - time_s_[formed] < half_window_s ||
+    if (time_s_[k] - time_s_[*formed] < half_window_s ||
         time_s_.back() - time_s_[k] < half_window_s) {
       continue;
     }
@@ -70,6 +76,19 @@ std::optional<double> QualityHistory::oscillation_m() const {
   }
   if (count == 0) return std::nullopt;
   return std::sqrt(sum / static_cast<double>(count));
+}
+
+std::optional<double> QualityHistory::swing_m() const {
+  const std::optional<std::size_t> formed = formed_at();
+  if (!formed) return std::nullopt;
+  const double until_s = time_s_[*formed] + to_rest_s;
+  if (time_s_.back() < until_s) return std::nullopt;
+  double rises = 0.0, falls = 0.0;
+  for (std::size_t k = *formed + 1; k < time_s_.size() && time_s_[k] <= until_s; ++k) {
+    const double step = quality_m_[k] - quality_m_[k - 1];
+    (step > 0.0 ? rises : falls) += std::abs(step);
+  }
+  return std::min(rises, falls);
 }
 
 }  // namespace shoal::analysis

@@ -18,14 +18,21 @@ class QualityHistory {
   /// Slope of the least-squares line.
   std::optional<double> trend_m_per_h(double from_share) const;
 
-  /// How strongly the quality of the formed swarm swings: its rms about its own mean over 10
-  /// minutes centred on each instant. Waves shorter than that count, drift and slow settling do
-  /// not. The swarm is formed from when the quality first is at most 1.5 times its mean in the last
-  /// 60 % of the mission.
+  /// How strongly the quality of the formed swarm swings throughout: its rms about its own mean
+  /// over 10 minutes centred on each instant. Waves shorter than that count, drift and slow
+  /// settling do not. The swarm is formed from when the quality first is at most 1.5 times its mean
+  /// in the last 60 % of the mission.
   std::optional<double> oscillation_m() const;
+
+  /// How much the quality rises and falls again while the formed swarm comes to rest: the lesser of
+  /// the sums of its rises and of its falls, in the 10 minutes after the swarm has formed. Whatever
+  /// goes one way only counts nothing.
+  std::optional<double> swing_m() const;
 
  private:
   std::size_t first_at(double share) const;
+  /// Nothing if there is no mean to compare with.
+  std::optional<std::size_t> formed_at() const;
 
   std::span<const double> time_s_, quality_m_;
   double mission_s_;

@@ -19,9 +19,7 @@ class Thrust final : public Measure {
         {"thrust_time_ratio_spread", "", "greatest - least share of time"},
         {"thrust_distance_ratio_min", "", "least share of distance of a vehicle"},
         {"thrust_distance_ratio_max", "", "greatest share of distance of a vehicle"},
-        {"thrust_distance_ratio_spread", "", "greatest - least share of distance"},
-        {"path_straightness", "",
-         "distance from start to end / length of track, mean of vehicles"}};
+        {"thrust_distance_ratio_spread", "", "greatest - least share of distance"}};
   }
 
   std::vector<Quantity> series() const override {
@@ -33,12 +31,7 @@ class Thrust final : public Measure {
             {"thrust_distance_ratio_max", "", "of the vehicle with the greatest share"}};
   }
 
-  void begin(const scenarios::World& world) override {
-    every_s_ = series_interval_s(world);
-    for (std::size_t i = 0; i < world.size(); ++i) {
-      start_.emplace_back(world.swarm().x_m[i], world.swarm().y_m[i]);
-    }
-  }
+  void begin(const scenarios::World& world) override { every_s_ = series_interval_s(world); }
 
   void observe(const scenarios::World& w) override {
     if (const auto share = of_time(w)) times_.add(w.time_s(), *share);
@@ -61,7 +54,6 @@ class Thrust final : public Measure {
     results.add("thrust_distance_ratio_min", number(distance, &Spread::least));
     results.add("thrust_distance_ratio_max", number(distance, &Spread::greatest));
     results.add("thrust_distance_ratio_spread", width(distance));
-    results.add("path_straightness", straightness(w));
     times_.append_to(results, "thrust_time_ratio_");
     distances_.append_to(results, "thrust_distance_ratio_");
   }
@@ -112,17 +104,6 @@ class Thrust final : public Measure {
     return distance && distance->least > 0.0;
   }
 
-  std::optional<double> straightness(const scenarios::World& w) const {
-    if (!all_moved(w)) return std::nullopt;
-    return over_survivors(w,
-                          [&](std::size_t i) {
-                            const Eigen::Vector2d end(w.swarm().x_m[i], w.swarm().y_m[i]);
-                            return (end - start_[i]).norm() / w.logbook(i).distance_m;
-                          })
-        ->mean;
-  }
-
-  std::vector<Eigen::Vector2d> start_;
   History times_, distances_;
 };
 

@@ -188,8 +188,8 @@ class Sampled final : public Matcher {
       work.found[subset] = work.search.search(work.turns, subsets[subset].aligned, limit, margin);
       least = std::min(least, work.found[subset].cost);
       if (!remember) continue;
-      work.search.visit_turns([&](int turn, double cost) {
-        last->candidates.push_back({subset, turn, cost});
+      work.search.visit_turns([&, of = subset](int turn, double cost) {
+        last->candidates.push_back({of, turn, cost});
       });
     }
     if (remember) keep(*last, least + margin, work);

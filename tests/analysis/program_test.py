@@ -16,12 +16,13 @@ energy_hotel_mean_wh energy_comms_mean_wh quality_final_m quality_settled_m time
 centroid_path_m centroid_displacement_m efficiency_m_per_wh thrust_time_ratio_mean
 thrust_time_ratio_min thrust_time_ratio_max thrust_distance_ratio_mean formation_rotation_deg
 min_separation_m fragments lost_vehicles energy_spread_wh energy_rate_w quality_worst_m
-quality_last_m quality_trend_m_per_h quality_oscillation_m energy_to_quality_20m_wh
+quality_last_m quality_trend_m_per_h quality_oscillation_m quality_swing_m energy_to_quality_20m_wh
 thrust_time_ratio_spread thrust_distance_ratio_min thrust_distance_ratio_max
 thrust_distance_ratio_spread path_straightness rotation_disagreement_deg
 rotation_disagreement_first_hour_deg""".split()
 # What five minutes are too short for.
-LATER = ["time_to_quality_20m_s", "energy_to_quality_20m_wh", "quality_oscillation_m"]
+LATER = ["time_to_quality_20m_s", "energy_to_quality_20m_wh", "quality_oscillation_m",
+         "quality_swing_m", "path_straightness"]
 SERIES = {
     "quality": "m", "energy_mean_wh": "W h", "energy_min_wh": "W h", "energy_max_wh": "W h",
     "centroid_path_m": "m", "efficiency_m_per_wh": "m W-1 h-1", "thrust_time_ratio_mean": "1",

@@ -74,6 +74,26 @@ TEST(QualityHistory, DoesNotTakeTheFormingForASwing) {
   EXPECT_NEAR(*jumping.history().oscillation_m(), 0.0, 1e-12);
 }
 
+TEST(QualityHistory, RisesAndFallsAgainAsAWaveThatDiesOut) {
+  // Formed at 990 s, and from 1000 s five waves of 2 m about 10 m, 20 m up and 20 m down in all.
+  // The ten minutes end 10 s before them, in the rise to the mean by 1 m: 2 m sin(30 deg).
+  const auto wavy = [](double t) {
+    return t < 1000.0 ? 400.0 - 0.39 * t : t < 1600.0 ? 10.0 + 2.0 * wave(t - 1000.0, 120.0) : 10.0;
+  };
+  EXPECT_NEAR(*Sampled(wavy).history().swing_m(), 19.0, 1e-9);
+  // What comes later does not count: vehicles that keep their places make waves, too.
+  const Sampled later([&](double t) { return t < 2000.0 ? wavy(t) : 10.0 + wave(t, 120.0); });
+  EXPECT_NEAR(*later.history().swing_m(), 19.0, 1e-9);
+}
+
+TEST(QualityHistory, DoesNotRiseAndFallAgainWhereItGoesOneWay) {
+  for (const auto& one_way : std::vector<std::function<double(double)>>{
+           [](double) { return 10.0; }, [](double t) { return 10.0 + t / 100.0; },
+           [](double t) { return 10.0 + 300.0 * std::exp(-t / 500.0); }}) {
+    EXPECT_NEAR(*Sampled(one_way).history().swing_m(), 0.0, 1e-12);
+  }
+}
+
 TEST(QualityHistory, OfTooFewLooksSaysNothing) {
   const Sampled none([](double) { return 1.0; }, -1.0);
   const QualityHistory empty(none.time_s, none.quality_m, 100.0);
@@ -81,8 +101,10 @@ TEST(QualityHistory, OfTooFewLooksSaysNothing) {
   EXPECT_EQ(empty.worst_m(0.0), std::nullopt);
   EXPECT_EQ(empty.trend_m_per_h(0.0), std::nullopt);
   EXPECT_EQ(empty.oscillation_m(), std::nullopt);
+  EXPECT_EQ(empty.swing_m(), std::nullopt);
   const Sampled brief([](double) { return 1.0; }, 595.0);  // shorter than the window
   EXPECT_EQ(brief.history().oscillation_m(), std::nullopt);
+  EXPECT_EQ(brief.history().swing_m(), std::nullopt);
   EXPECT_EQ(brief.history().trend_m_per_h(1.0), std::nullopt);  // one look
 }
 
