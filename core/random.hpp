@@ -14,6 +14,9 @@ enum class Purpose : std::uint32_t {
   ping_loss,
   node_loss,
   solver,
+  bootstrap,
+  sign_flip,
+  design,
 };
 
 /// Counter-based random numbers (Philox4x32-10): the n-th number of a stream is a pure function of
