@@ -16,6 +16,7 @@ enum class Purpose : std::uint32_t {
   solver,
   bootstrap,
   sign_flip,
+  design,
 };
 
 /// Counter-based random numbers (Philox4x32-10): the n-th number of a stream is a pure function of
