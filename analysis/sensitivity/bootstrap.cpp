@@ -27,8 +27,8 @@ Eigen::VectorXd means_of_resample(const Eigen::MatrixXd& samples, std::uint64_t 
 
 }  // namespace
 
-std::vector<Estimate> bootstrap(const Eigen::MatrixXd& samples, const OfMeans& of_means,
-                                const Resampling& resampling) {
+std::vector<IndexEstimate> bootstrap(const Eigen::MatrixXd& samples, const OfMeans& of_means,
+                                     const Resampling& resampling) {
   if (!(resampling.level > 0.0 && resampling.level < 1.0)) {
     throw std::invalid_argument("a confidence level is not between 0 and 1");
   }
@@ -36,7 +36,7 @@ std::vector<Estimate> bootstrap(const Eigen::MatrixXd& samples, const OfMeans& o
   const std::optional<Eigen::VectorXd> values = of_means(samples.rowwise().mean());
   if (!values) throw std::invalid_argument("the samples of a bootstrap define no estimates");
 
-  std::vector<Estimate> estimates;
+  std::vector<IndexEstimate> estimates;
   for (const double value : *values) estimates.push_back({.value = value});
   if (samples.cols() < 2) return estimates;
 

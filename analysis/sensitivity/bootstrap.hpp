@@ -15,7 +15,7 @@ namespace shoal::analysis {
 using Answers = std::span<const std::optional<double>>;
 
 /// An estimate and how well it is known.
-struct Estimate {
+struct IndexEstimate {
   double value = 0.0;
   /// Nothing where resamples say nothing about the scatter (see `bootstrap`).
   std::optional<statistics::Interval> interval;
@@ -39,8 +39,8 @@ using OfMeans = std::function<std::optional<Eigen::VectorXd>(const Eigen::Vector
 /// There are no intervals from a single sample, nor where some resample defines no estimates. All
 /// throw std::invalid_argument unless 0 < level < 1 and resamples > 0, and if the samples
 /// themselves define no estimates.
-std::vector<Estimate> bootstrap(const Eigen::MatrixXd& samples, const OfMeans& of_means,
-                                const Resampling& resampling);
+std::vector<IndexEstimate> bootstrap(const Eigen::MatrixXd& samples, const OfMeans& of_means,
+                                     const Resampling& resampling);
 
 /// Throws std::invalid_argument if an answer is not finite.
 void require_finite(Answers answers);

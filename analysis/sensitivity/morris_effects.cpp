@@ -59,7 +59,7 @@ MorrisEffects morris_effects(const Eigen::MatrixXd& cells, Answers answers,
     return result;
   }
   const Eigen::MatrixXd complete = effects.leftCols(result.trajectories);
-  const std::vector<Estimate> sizes = bootstrap(
+  const std::vector<IndexEstimate> sizes = bootstrap(
       complete.cwiseAbs(), [](const Eigen::VectorXd& means) { return means; }, resampling);
   for (Eigen::Index f = 0; f < complete.rows(); ++f) {
     result.factors.push_back({.mu = complete.row(f).mean(),

@@ -11,7 +11,7 @@ namespace shoal::analysis {
 /// the factor by its whole range.
 struct MorrisEffect {
   double mu = 0.0;              ///< their mean (Morris 1991)
-  Estimate mu_star;             ///< the mean of their sizes (Campolongo, Cariboni, Saltelli 2007)
+  IndexEstimate mu_star;        ///< the mean of their sizes (Campolongo, Cariboni, Saltelli 2007)
   std::optional<double> sigma;  ///< the sample's standard deviation, large where the factor acts in
                                 ///< a curve or with others; nothing for one trajectory
 };

@@ -95,7 +95,7 @@ SobolIndices sobol_indices(Answers answers, int factors, const Resampling& resam
   }
   const Eigen::Index b = complete.rows() - 1;
   complete.array() -= (complete.row(0).mean() + complete.row(b).mean()) / 2.0;
-  const std::vector<Estimate> estimates = bootstrap(moments(complete), indices, resampling);
+  const std::vector<IndexEstimate> estimates = bootstrap(moments(complete), indices, resampling);
   for (std::size_t i = 0; i < estimates.size(); i += 2) {
     result.factors.push_back({.first_order = estimates[i], .total = estimates[i + 1]});
   }

@@ -10,10 +10,10 @@ namespace shoal::analysis {
 /// How much of the variance of an answer one factor accounts for, as shares of that variance.
 struct SobolIndex {
   /// By itself. Estimates scatter around it: that of a small index may be negative.
-  Estimate first_order;
+  IndexEstimate first_order;
   /// With all its interactions. A sum of squares, so it is distinguishable from zero as soon as the
   /// factor changes some answer.
-  Estimate total;
+  IndexEstimate total;
 };
 
 /// Sobol' indices of all factors, in the order of the factors.

@@ -16,7 +16,7 @@ using namespace test;  // NOLINT: the functions are few, and all of them are mea
 
 using List = std::vector<std::optional<double>>;
 
-bool covers(const Estimate& estimate, double truth) {
+bool covers(const IndexEstimate& estimate, double truth) {
   return estimate.interval && estimate.interval->low <= truth && truth <= estimate.interval->high;
 }
 
@@ -178,7 +178,7 @@ TEST(SobolIndices, RefuseAnswersThatAreNoDesign) {
 
 TEST(SobolIndices, AreTheSameBitsAgainAndOfAnotherSeedHaveOtherIntervals) {
   const List y = answers(saltelli(64, 2), linear({1.0, 2.0}).f);
-  const Estimate once = sobol_indices(y, 2).factors[0].total;
+  const IndexEstimate once = sobol_indices(y, 2).factors[0].total;
   EXPECT_EQ(once.interval->low, sobol_indices(y, 2).factors[0].total.interval->low);
   EXPECT_NE(once.interval->low, sobol_indices(y, 2, {.seed = 2}).factors[0].total.interval->low);
 }
