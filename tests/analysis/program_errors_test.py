@@ -198,7 +198,7 @@ BAD_ARGUMENTS = [
       "attraction_repulsion.solver.nlopt.mma.max_evaluations is 0; it takes from 1 to 1e+09\n"]),
     (["list", "behavior"], ['no family "behavior"', 'did you mean "behaviour"?']),
     (["list", "solvres"], ['no family "solvres"', 'did you mean "solver"?']),
-    (["list", "everything"], ['no family "everything"', "known are behaviour, cohesion, current, "]),
+    (["list", "everything"], ['no family "everything"', "known are behaviour, claim_test, cohesion, current, "]),
     (["describe"], ["required"]),
     (["describe", "rigid"], ['"rigid"', 'did you mean "rigid_registration"?']),
     (["describe", "quux quux"], ["shoal list"]),
