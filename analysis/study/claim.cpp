@@ -48,7 +48,8 @@ std::vector<ClaimScope> scopes(const Claim& claim, const Question& question,
       std::string title = groups.size() > 1 ? group.name() : "";
       for (std::size_t i = 0; i < group.columns().size(); ++i) {
         const std::string& column = group.columns()[i];
-        if (std::ranges::find(compared, column) != compared.end() || where.names(column)) continue;
+        if (std::ranges::find(compared, column) != compared.end() || where.names_one(column))
+          continue;
         title += (title.empty() ? "" : ", ") + group.labels(cell)[i];
       }
       const auto [place, fresh] = known.emplace(title, scopes.size());

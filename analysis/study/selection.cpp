@@ -24,8 +24,10 @@ CellSelection::CellSelection(const Setting& table) : origin_(table.origin) {
   }
 }
 
-bool CellSelection::names(const std::string& factor) const {
-  return std::ranges::any_of(wanted_, [&](const auto& entry) { return entry.first == factor; });
+bool CellSelection::names_one(const std::string& factor) const {
+  return std::ranges::any_of(wanted_, [&](const auto& entry) {
+    return entry.first == factor && entry.second.size() == 1;
+  });
 }
 
 bool CellSelection::holds(std::span<const std::string> names,
