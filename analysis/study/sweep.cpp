@@ -58,13 +58,13 @@ class Missing {
       const std::string key = plan.groups()[trial.group].key(trial.cell, trial.replication);
       const std::string id = trial_identity(identity, plan.seed(trial));
       const auto found = stored.find(key);
-      if (found == stored.end()) {
-        tasks.push_back({&trial, id});
-      } else if (found->second.id != id) {
+      const bool is_changed = found != stored.end() && found->second.id != id;
+      if (is_changed) {
         if (changed.empty()) why_changed = reason(plan, trial, found->second);
         changed.push_back(key);
-        tasks.push_back({&trial, id});
-      } else if (incomplete.contains(key) || (settings.retry_failed && found->second.failed())) {
+      }
+      if (found == stored.end() || is_changed || incomplete.contains(key) ||
+          (settings.retry_failed && found->second.failed())) {
         tasks.push_back({&trial, id});
       } else {
         failed += found->second.failed() ? 1 : 0;
