@@ -77,22 +77,6 @@ void require_known_quantities(const Study& study) {
   }
 }
 
-/// What trials are to yield must be known before the first one runs.
-void require_quantities(const Study& study) {
-  for (const std::string& name : study.series) known_series(name, study.origin);
-  for (const TableRequest& table : study.tables) {
-    for (const std::string& name : table.metrics) known_value(name, table.origin);
-    for (const std::string& name : table.series) known_series(name, table.origin);
-    if (!table.against.empty()) known_series(table.against, table.origin);
-  }
-  for (const ComparisonRequest& comparison : study.comparisons) {
-    for (const std::string& name : comparison.metrics) known_value(name, comparison.origin);
-  }
-  for (const SensitivityRequest& sensitivity : study.sensitivities) {
-    for (const std::string& name : sensitivity.metrics) known_value(name, sensitivity.origin);
-  }
-}
-
 std::optional<std::string> name_complaint(const std::string& name, const std::string& noun) {
   if (name.empty()) return noun + " needs a name";
   const bool plain = name.find_first_not_of(
@@ -107,6 +91,13 @@ template <class Request>
 void declare_scope(Options<Request>& o) {
   o.text("name", &Request::name, "of its files, and its label in LaTeX");
   o.text("caption", &Request::caption, "what the table shows");
+}
+
+template <class Request>
+void declare_cells(Options<Request>& o) {
+  declare_scope(o);
+  o.texts("groups", &Request::groups, "groups whose trials it is about; default: all");
+  o.setting("where", &Request::where, "a table: factor = label or labels", "only these cells");
 }
 
 template <class Request>
@@ -148,9 +139,7 @@ std::optional<std::string> Group::complaint() const {
 
 void TableRequest::declare(Options<TableRequest>& o) {
   using T = TableRequest;
-  declare_scope(o);
-  o.texts("groups", &T::groups, "groups whose trials it shows; default: all");
-  o.setting("where", &T::where, "a table: factor = label or labels", "only these cells");
+  declare_cells(o);
   o.texts("rows", &T::rows, "factors that run down the table; default: all that are not columns");
   o.texts("columns", &T::columns, "factors that run across the table");
   o.texts("pool", &T::pool, "factors whose levels are taken together as if they were replications");
@@ -190,9 +179,7 @@ std::optional<std::string> TableRequest::complaint() const {
 
 void ComparisonRequest::declare(Options<ComparisonRequest>& o) {
   using C = ComparisonRequest;
-  declare_scope(o);
-  o.texts("groups", &C::groups, "groups whose trials it compares; default: all");
-  o.setting("where", &C::where, "a table: factor = label or labels", "only these cells");
+  declare_cells(o);
   o.text("factor", &C::factor, "the factor whose levels are compared");
   o.text("reference", &C::reference, "the level that the others are compared with");
   o.texts("metrics", &C::metrics, "what is compared (shoal list measures)");
@@ -260,7 +247,6 @@ Study read_study(const Setting& root) {
   if (!study.claims_file.path.empty()) {
     study.claims = read_claims(scenarios::read_toml(scenarios::resolved(study.claims_file)));
   }
-  require_quantities(study);
   std::set<std::string> names;
   require_names(study.tables, names);
   require_names(study.comparisons, names);
