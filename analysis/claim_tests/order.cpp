@@ -38,11 +38,7 @@ class Order final : public ClaimTest {
         share_(options.by_percent / 100.0),
         sign_(sign) {}
 
-  std::vector<std::string> compared() const override {
-    std::vector<std::string> names;
-    for (const auto& [name, labels] : cells_.wanted()) names.push_back(name);
-    return names;
-  }
+  std::vector<std::string> compared() const override { return cells_.factors(); }
 
   std::vector<Contrast> contrasts(const ClaimScope& scope) const override {
     const auto ours = scope.answers(scope.cell(cells_));

@@ -26,11 +26,7 @@ class Similar final : public ClaimTest {
   explicit Similar(const SimilarOptions& options)
       : cells_(options.cells), to_(options.to), share_(options.within_percent / 100.0) {}
 
-  std::vector<std::string> compared() const override {
-    std::vector<std::string> names;
-    for (const auto& [name, labels] : cells_.wanted()) names.push_back(name);
-    return names;
-  }
+  std::vector<std::string> compared() const override { return cells_.factors(); }
 
   std::vector<Contrast> contrasts(const ClaimScope& scope) const override {
     const auto ours = scope.answers(scope.cell(cells_));

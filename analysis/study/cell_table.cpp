@@ -11,6 +11,7 @@
 #include "shoal/analysis/statistics/holm.hpp"
 #include "shoal/analysis/statistics/intervals.hpp"
 #include "shoal/analysis/statistics/summary.hpp"
+#include "shoal/analysis/study/confidence.hpp"
 #include "shoal/analysis/study/paired_test.hpp"
 #include "shoal/analysis/study/slices.hpp"
 #include "shoal/core/text.hpp"
@@ -18,8 +19,6 @@
 namespace shoal::analysis {
 namespace {
 
-constexpr double level = 0.95;
-constexpr double alpha = 0.05;
 constexpr std::size_t most_steps = 100000;
 
 using Place = std::vector<std::size_t>;
@@ -235,7 +234,7 @@ class CellTable {
     for (const Contest& contest : contests) {
       const auto first = adjusted.begin() + static_cast<std::ptrdiff_t>(contest.first_test);
       const bool told = std::all_of(first, first + static_cast<std::ptrdiff_t>(contest.tests),
-                                    [](double p) { return p <= alpha; });
+                                    [](double p) { return p <= 1.0 - confidence; });
       if (told) best_.insert({contest.best, contest.quantity, contest.step});
     }
   }
@@ -280,7 +279,7 @@ Cell cell_of(const std::vector<double>& values, int failed, Statistic statistic)
     case Statistic::mean:
       break;
     case Statistic::mean_ci:
-      if (const auto interval = statistics::t_interval(values, level)) {
+      if (const auto interval = statistics::t_interval(values, confidence)) {
         const double half = (interval->high - interval->low) / 2.0;
         cell.uncertainty = PlusMinus{half};
         cell.digits = decimals_for(half);
@@ -293,7 +292,7 @@ Cell cell_of(const std::vector<double>& values, int failed, Statistic statistic)
       cell.uncertainty = Between{summary.least, summary.greatest};
       break;
     case Statistic::mean_bca:
-      if (const auto interval = statistics::bca_interval_of_mean(values, level)) {
+      if (const auto interval = statistics::bca_interval_of_mean(values, confidence)) {
         cell.uncertainty = Between{interval->low, interval->high};
       }
       break;

@@ -7,14 +7,12 @@
 
 #include "shoal/analysis/statistics/intervals.hpp"
 #include "shoal/analysis/statistics/power.hpp"
+#include "shoal/analysis/study/confidence.hpp"
 #include "shoal/analysis/study/slices.hpp"
 #include "shoal/core/text.hpp"
 
 namespace shoal::analysis {
 namespace {
-
-constexpr double level = 0.95;
-constexpr double power = 0.8;
 
 std::vector<std::size_t> groups_of(const Claim& claim, const StudyPlan& plan) {
   if (claim.groups.empty() && plan.groups().size() > 1) {
@@ -27,8 +25,9 @@ void require_columns(const CellSelection& selection, const PlannedGroup& group,
                      const Origin& origin) {
   for (const auto& [name, labels] : selection.wanted()) {
     if (std::ranges::find(group.columns(), name) != group.columns().end()) continue;
-    throw InputError(origin, "the group " + group.name() + " has no factor \"" + name + '"' +
-                                 suggestion(name, group.columns()));
+    const std::string owner = group.name().empty() ? "the study" : "the group " + group.name();
+    throw InputError(origin,
+                     owner + " has no factor \"" + name + '"' + suggestion(name, group.columns()));
   }
 }
 
@@ -65,7 +64,7 @@ ContrastResult judged(const Contrast& contrast, double corrected_level) {
   ContrastResult result{.title = contrast.title, .n = static_cast<int>(contrast.numbers.size())};
   if (contrast.numbers.empty()) return result;
   result.mean = statistics::mean(contrast.numbers);
-  const auto interval = statistics::t_interval(contrast.numbers, level);
+  const auto interval = statistics::t_interval(contrast.numbers, confidence);
   const auto wide = statistics::t_interval(contrast.numbers, corrected_level);
   if (!interval || !wide) return result;
   result.low = interval->low;
@@ -89,7 +88,7 @@ std::optional<int> needed(const Contrast& contrast) {
   }
   const double sd = statistics::standard_deviation(contrast.numbers);
   if (!statistics::standard_error(contrast.numbers) || distance == 0.0) return std::nullopt;
-  return statistics::replications_for(distance, sd, 1.0 - level, power);
+  return statistics::replications_for(distance, sd, 1.0 - confidence, wanted_power);
 }
 
 }  // namespace
@@ -145,7 +144,7 @@ ClaimResult test_claim(const Claim& claim, const StudyResults& results) {
       contrasts.push_back(std::move(contrast));
     }
   }
-  const double corrected = 1.0 - (1.0 - level) / static_cast<double>(contrasts.size());
+  const double corrected = 1.0 - (1.0 - confidence) / static_cast<double>(contrasts.size());
   ClaimResult result;
   int most = 0;
   bool all = true, known = true;

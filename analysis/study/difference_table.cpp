@@ -9,6 +9,7 @@
 #include "shoal/analysis/statistics/intervals.hpp"
 #include "shoal/analysis/statistics/power.hpp"
 #include "shoal/analysis/study/cell_table.hpp"
+#include "shoal/analysis/study/confidence.hpp"
 #include "shoal/analysis/study/paired_test.hpp"
 #include "shoal/analysis/study/slices.hpp"
 #include "shoal/core/text.hpp"
@@ -16,8 +17,6 @@
 namespace shoal::analysis {
 namespace {
 
-constexpr double level = 0.95;
-constexpr double power = 0.8;
 constexpr int most_replications = 10000;
 
 Cell number(const std::optional<double>& value, Digits digits) {
@@ -32,7 +31,7 @@ Cell difference_cell(const std::vector<double>& differences, int failed) {
 Cell replications_cell(const std::vector<double>& differences, double wanted) {
   if (!statistics::standard_error(differences) || wanted == 0.0) return Missing{};
   const auto n = statistics::replications_for(wanted, statistics::standard_deviation(differences),
-                                              1.0 - level, power, most_replications);
+                                              1.0 - confidence, wanted_power, most_replications);
   if (!n) return Missing{};
   return Estimate{.value = static_cast<double>(*n), .digits = Digits::decimals(0)};
 }

@@ -24,6 +24,12 @@ CellSelection::CellSelection(const Setting& table) : origin_(table.origin) {
   }
 }
 
+std::vector<std::string> CellSelection::factors() const {
+  std::vector<std::string> names;
+  for (const auto& [factor, labels] : wanted_) names.push_back(factor);
+  return names;
+}
+
 bool CellSelection::names_one(const std::string& factor) const {
   return std::ranges::any_of(wanted_, [&](const auto& entry) {
     return entry.first == factor && entry.second.size() == 1;

@@ -19,6 +19,7 @@ class CellSelection {
   explicit CellSelection(const Setting& table);
 
   bool empty() const { return wanted_.empty(); }
+  std::vector<std::string> factors() const;
   /// Whether it leaves one label of a factor.
   bool names_one(const std::string& factor) const;
   const std::vector<std::pair<std::string, std::vector<std::string>>>& wanted() const {
