@@ -6,6 +6,7 @@
 
 #include "commands.hpp"
 #include "shoal/analysis/study/study_files.hpp"
+#include "shoal/analysis/study/study_tables.hpp"
 #include "shoal/analysis/study/sweep.hpp"
 #include "shoal/core/text.hpp"
 #include "shoal/scenarios/toml_file.hpp"
@@ -80,7 +81,9 @@ analysis::StudyPlan plan_of(const SweepArguments& arguments) {
       }
     }
   }
-  return analysis::StudyPlan(analysis::read_study(root));
+  analysis::StudyPlan plan(analysis::read_study(root));
+  analysis::require_answerable(plan);
+  return plan;
 }
 
 }  // namespace

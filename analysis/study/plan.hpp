@@ -41,6 +41,9 @@ class PlannedGroup {
   /// What tells one trial of the study from every other: group, labels and replication.
   std::string key(std::size_t cell, int replication) const;
 
+  /// The design as it was drawn: rows x factors.
+  const Eigen::MatrixXd& design() const { return design_; }
+
   /// What a cell changes, axis by axis; nothing where a factor does not apply.
   std::vector<Axis::Place> changes(std::size_t cell) const;
 

@@ -28,18 +28,22 @@ std::optional<double> time_of(const scenarios::Series& series, double value) {
   return series.time_s[k - 1] + share * (series.time_s[k] - series.time_s[k - 1]);
 }
 
+StudyResults::StudyResults(const StudyPlan& plan, const std::vector<std::string>& metrics,
+                           const std::vector<std::string>& series)
+    : plan_(plan), states_(plan.trials(), State::missing), failures_(plan.trials()) {
+  for (const std::string& name : metrics) metrics_[name].resize(plan.trials());
+  for (const std::string& name : series) series_[name].resize(plan.trials());
+}
+
 StudyResults::StudyResults(const StudyPlan& plan, const Store& store,
                            const std::vector<std::string>& metrics,
                            const std::vector<std::string>& series)
-    : plan_(plan), states_(plan.trials(), State::missing), failures_(plan.trials()) {
+    : StudyResults(plan, metrics, series) {
   std::unordered_map<std::string, std::size_t> place;
   for (std::size_t i = 0; i < plan.trials(); ++i) {
     const PlannedTrial& trial = plan.trial(i);
     place.emplace(plan.groups()[trial.group].key(trial.cell, trial.replication), i);
   }
-  for (const std::string& name : metrics) metrics_[name].resize(plan.trials());
-  for (const std::string& name : series) series_[name].resize(plan.trials());
-
   std::string program;
   for (const StoredTrial& stored : store.trials(metrics)) {
     const auto found = place.find(stored.key);

@@ -25,6 +25,10 @@ class StudyResults {
  public:
   enum class State : std::uint8_t { missing, failed, done };
 
+  /// Of a study whose trials all are missing; these metrics and series may be asked for.
+  StudyResults(const StudyPlan& plan, const std::vector<std::string>& metrics,
+               const std::vector<std::string>& series);
+
   /// Reads these metrics and these series. Throws InputError if trials of the study were run by
   /// different programs.
   StudyResults(const StudyPlan& plan, const Store& store, const std::vector<std::string>& metrics,

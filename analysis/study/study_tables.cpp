@@ -7,6 +7,7 @@
 #include "shoal/analysis/study/cell_table.hpp"
 #include "shoal/analysis/study/difference_table.hpp"
 #include "shoal/analysis/study/needed_series.hpp"
+#include "shoal/analysis/study/sensitivity_table.hpp"
 #include "shoal/analysis/trial.hpp"
 #include "shoal/core/whole_file.hpp"
 
@@ -55,12 +56,21 @@ StudyResults read_results(const StudyPlan& plan, const fs::path& folder) {
   return {plan, store, needed_metrics(plan.study()), needed_series(plan.study())};
 }
 
+void require_answerable(const StudyPlan& plan) {
+  const StudyResults none(plan, needed_metrics(plan.study()), needed_series(plan.study()));
+  study_tables(none);
+  judged_claims(none);
+}
+
 std::vector<Table> study_tables(const StudyResults& results) {
   const Study& study = results.plan().study();
   std::vector<Table> tables;
   for (const TableRequest& request : study.tables) tables.push_back(cell_table(request, results));
   for (const ComparisonRequest& request : study.comparisons) {
     tables.push_back(difference_table(request, results));
+  }
+  for (const SensitivityRequest& request : study.sensitivities) {
+    for (Table& table : sensitivity_tables(request, results)) tables.push_back(std::move(table));
   }
   if (!tables.empty()) return tables;
   for (const PlannedGroup& group : results.plan().groups()) {

@@ -13,6 +13,10 @@ namespace shoal::analysis {
 /// What the tables and claims of a study need, read from its store.
 StudyResults read_results(const StudyPlan& plan, const std::filesystem::path& folder);
 
+/// Throws InputError if a table or a claim asks for what the study does not have: better before its
+/// trials than after.
+void require_answerable(const StudyPlan& plan);
+
 /// Every table that the study asks for, in its order; a study that asks for none gets one for each
 /// group: every factor in the rows, a few metrics in the columns. Throws InputError.
 std::vector<Table> study_tables(const StudyResults& results);

@@ -1,0 +1,197 @@
+#include "shoal/analysis/study/sensitivity_table.hpp"
+
+#include <algorithm>
+
+#include "shoal/analysis/measure.hpp"
+#include "shoal/analysis/sensitivity/morris_effects.hpp"
+#include "shoal/analysis/sensitivity/sobol_indices.hpp"
+#include "shoal/analysis/study/cell_table.hpp"
+#include "shoal/analysis/study/confidence.hpp"
+#include "shoal/analysis/study/slices.hpp"
+
+namespace shoal::analysis {
+namespace {
+
+std::size_t analysed_group(const SensitivityRequest& request, const StudyPlan& plan) {
+  if (request.group.empty() && plan.groups().size() > 1) {
+    throw InputError(request.origin, "the study has several groups; name one with group");
+  }
+  const std::size_t place =
+      request.group.empty() ? 0 : places_of_groups({request.group}, plan, request.origin).front();
+  const Group& group = plan.groups()[place].group();
+  const std::string& design = group.design.kind();
+  if (design != "saltelli" && design != "morris") {
+    throw InputError(request.origin,
+                     "a sensitivity needs design.kind = \"saltelli\" or \"morris\", "
+                     "and the group has \"" +
+                         design + '"');
+  }
+  for (const Factor& factor : group.factors) {
+    if (factor.only.table().empty()) continue;
+    throw InputError(factor.origin,
+                     "a factor with only is not varied in every cell, as the design " + design +
+                         " supposes; leave only out");
+  }
+  return place;
+}
+
+/// Cell by cell, in the order of the design.
+std::vector<std::optional<double>> answers_of(const StudyResults& results, std::size_t group,
+                                              const std::string& metric) {
+  const PlannedGroup& planned = results.plan().groups()[group];
+  const Question question{metric, "", "", 0.0};
+  std::vector<std::optional<double>> answers;
+  for (std::size_t cell = 0; cell < planned.cells(); ++cell) {
+    std::optional<double> sum = 0.0;
+    for (int k = 0; k < planned.replications(); ++k) {
+      const auto answer = results.answer(question, results.plan().index(group, cell, k));
+      sum = sum && answer ? std::optional(*sum + *answer) : std::nullopt;
+    }
+    answers.push_back(sum ? std::optional(*sum / planned.replications()) : std::nullopt);
+  }
+  return answers;
+}
+
+Cell cell_of(const IndexEstimate& estimate) {
+  Estimate cell{.value = estimate.value, .digits = Digits::decimals(3)};
+  if (estimate.interval)
+    cell.uncertainty = Between{estimate.interval->low, estimate.interval->high};
+  return cell;
+}
+
+Cell text_if_zero(const IndexEstimate& estimate) {
+  return std::string(estimate.distinguishable() ? "" : "not told from 0");
+}
+
+/// One row a factor, below those of the metrics before.
+class IndexTable {
+ public:
+  IndexTable(const SensitivityRequest& request, const StudyResults& results)
+      : request_(request), results_(results), group_(analysed_group(request, results.plan())) {}
+
+  std::vector<Table> tables() {
+    const bool sobol = planned().group().design.kind() == "saltelli";
+    std::vector<Table> tables{sobol ? sobol_table() : morris_table()};
+    if (sobol && request_.convergence) tables.push_back(convergence_table());
+    return tables;
+  }
+
+ private:
+  const PlannedGroup& planned() const { return results_.plan().groups()[group_]; }
+
+  Resampling resampling() const { return {.level = confidence}; }
+
+  std::vector<Cell> row(const std::string& metric, std::size_t factor) const {
+    return {heading_of(known_value(metric, request_.origin)), planned().axes()[factor].name()};
+  }
+
+  int factors() const { return static_cast<int>(planned().axes().size()); }
+
+  Table sobol_table() const {
+    Table table{
+        request_.name,
+        request_.caption,
+        {{.header = "metric"},
+         {.header = "factor"},
+         {.header = "first order", .name = "first_order"},
+         {.header = "", .name = "first_order_note"},
+         {.header = "total"},
+         {.header = "", .name = "total_note"}},
+        {},
+        {"First-order (Saltelli) and total (Jansen) indices with 95 % bootstrap intervals."}};
+    for (const std::string& metric : request_.metrics) {
+      const auto answers = answers_of(results_, group_, metric);
+      const SobolIndices indices = sobol_indices(answers, factors(), resampling());
+      for (std::size_t f = 0; f < indices.factors.size(); ++f) {
+        std::vector<Cell> cells = row(metric, f);
+        cells.push_back(cell_of(indices.factors[f].first_order));
+        cells.push_back(text_if_zero(indices.factors[f].first_order));
+        cells.push_back(cell_of(indices.factors[f].total));
+        table.rows.push_back(std::move(cells));
+      }
+      table.notes.push_back(
+          note(metric, indices.base_samples, indices.left_out, "base samples", indices.undefined));
+    }
+    return table;
+  }
+
+  Table convergence_table() const {
+    Table table{request_.name + "_convergence",
+                request_.caption.empty() ? "" : request_.caption + ": convergence",
+                {{.header = "metric"},
+                 {.header = "factor"},
+                 {.header = "base samples", .name = "base_samples"},
+                 {.header = "first order", .name = "first_order"},
+                 {.header = "total"}},
+                {},
+                {"Indices that still move from one number of base samples to the next have not "
+                 "converged."}};
+    for (const std::string& metric : request_.metrics) {
+      const auto answers = answers_of(results_, group_, metric);
+      for (const SobolIndices& indices : sobol_convergence(answers, factors(), resampling())) {
+        for (std::size_t f = 0; f < indices.factors.size(); ++f) {
+          std::vector<Cell> cells = row(metric, f);
+          cells.emplace_back(Estimate{.value = static_cast<double>(indices.base_samples),
+                                      .digits = Digits::decimals(0)});
+          cells.push_back(cell_of(indices.factors[f].first_order));
+          cells.push_back(cell_of(indices.factors[f].total));
+          table.rows.push_back(std::move(cells));
+        }
+      }
+    }
+    return table;
+  }
+
+  Table morris_table() const {
+    Table table{
+        request_.name,
+        request_.caption,
+        {{.header = "metric"},
+         {.header = "factor"},
+         {.header = "mu"},
+         {.header = "mu*", .name = "mu_star"},
+         {.header = "sigma"}},
+        {},
+        {"Elementary effects of a change by the whole range of the factor; mu* with its 95 % "
+         "bootstrap interval."}};
+    for (const std::string& metric : request_.metrics) {
+      const MorrisEffects effects =
+          morris_effects(planned().design(), answers_of(results_, group_, metric), resampling());
+      for (std::size_t f = 0; f < effects.factors.size(); ++f) {
+        const MorrisEffect& effect = effects.factors[f];
+        std::vector<Cell> cells = row(metric, f);
+        cells.emplace_back(Estimate{.value = effect.mu, .digits = Digits::significant(3)});
+        cells.push_back(cell_of(effect.mu_star));
+        cells.push_back(
+            effect.sigma ? Cell(Estimate{.value = *effect.sigma, .digits = Digits::significant(3)})
+                         : Cell(Missing{}));
+        table.rows.push_back(std::move(cells));
+      }
+      table.notes.push_back(
+          note(metric, effects.trajectories, effects.left_out, "trajectories", effects.undefined));
+    }
+    return table;
+  }
+
+  static std::string note(const std::string& metric, int count, int left_out,
+                          const std::string& samples, const std::string& undefined) {
+    std::string text = metric + ": " + std::to_string(count) + " " + samples;
+    if (left_out > 0) {
+      text += ", " + std::to_string(left_out) + " left out, of which some answer is missing";
+    }
+    return text + (undefined.empty() ? "." : "; no indices: " + undefined + ".");
+  }
+
+  const SensitivityRequest& request_;
+  const StudyResults& results_;
+  std::size_t group_;
+};
+
+}  // namespace
+
+std::vector<Table> sensitivity_tables(const SensitivityRequest& request,
+                                      const StudyResults& results) {
+  return IndexTable(request, results).tables();
+}
+
+}  // namespace shoal::analysis
