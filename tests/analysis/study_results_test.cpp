@@ -1,0 +1,204 @@
+#include <gtest/gtest.h>
+
+#include <unistd.h>
+
+#include <cmath>
+#include <filesystem>
+#include <map>
+
+#include "shoal/analysis/study/cell_table.hpp"
+#include "shoal/analysis/study/claim.hpp"
+#include "shoal/analysis/study/difference_table.hpp"
+#include "shoal/scenarios/toml_file.hpp"
+#include "tests/core/settings.hpp"
+
+namespace shoal::analysis {
+namespace {
+
+using tests::complaint_of;
+
+const char* const study_text = R"(
+scenario = "construction_square"
+replications = 5
+[[factor]]
+name = "behaviour"
+key = "behaviour.kind"
+values = ["rigid_registration", "pairwise_referencing"]
+[[factor]]
+name = "period"
+key = "ping.period_s"
+values = [10, 20]
+)";
+
+/// A study whose trials "gave" chosen energies: behaviour, period -> by replication. A cell that is
+/// not named failed.
+class Stored : public testing::Test {
+ protected:
+  using Energies = std::map<std::pair<std::string, std::string>, std::vector<double>>;
+
+  void SetUp() override {
+    folder_ =
+        std::filesystem::temp_directory_path() / ("shoal_study_" + std::to_string(::getpid()));
+    std::filesystem::create_directories(folder_);
+  }
+  void TearDown() override { std::filesystem::remove_all(folder_); }
+
+  StudyResults results(const Energies& energies) {
+    const StudyPlan plan(read_study(scenarios::parse_toml(study_text, "study.toml")));
+    Store store(folder_, Store::Access::write);
+    const PlannedGroup& group = plan.groups().front();
+    for (const PlannedTrial& planned : plan.all_trials()) {
+      StoredTrial trial;
+      trial.key = group.key(planned.cell, planned.replication);
+      trial.program = "test";
+      const auto labels = group.labels(planned.cell);
+      const auto found = energies.find({labels[0], labels[1]});
+      if (found == energies.end()) {
+        trial.failure = "it sank";
+      } else {
+        const auto k = static_cast<std::size_t>(planned.replication);
+        trial.metrics = {{"energy_mean_wh", found->second.at(k)}};
+      }
+      store.write(trial);
+    }
+    return {plan, store, {"energy_mean_wh"}, {}};
+  }
+
+  static ClaimResult judged(const std::string& test, const StudyResults& results,
+                            const std::string& more = "") {
+    const auto claims = read_claims(
+        scenarios::parse_toml("[[claim]]\nsays = \"so\"\nmetric = \"energy_mean_wh\"\n" + more +
+                                  "\n[claim.test]\n" + test,
+                              "claims.toml"));
+    return test_claim(claims.front(), results);
+  }
+
+  std::filesystem::path folder_;
+};
+
+const std::string rigid = "rigid_registration", pairwise = "pairwise_referencing";
+const std::vector<double> low{10, 11, 12, 13, 14}, high{20, 21.5, 22, 23.5, 24},
+    mixed{9, 12, 11, 14, 13};
+const std::string rigid_is_lower =
+    "kind = \"lower\"\nlower.cells = { behaviour = \"rigid_registration\" }\n"
+    "lower.than = [{ behaviour = \"pairwise_referencing\" }]\n";
+
+TEST_F(Stored, AClaimIsReproducedWhereEveryIntervalAgrees) {
+  const StudyResults all = results({{{rigid, "10"}, low},
+                                    {{pairwise, "10"}, high},
+                                    {{rigid, "20"}, low},
+                                    {{pairwise, "20"}, high}});
+  const ClaimResult result = judged(rigid_is_lower, all);
+  EXPECT_EQ(result.verdict, Verdict::reproduced);
+  ASSERT_EQ(result.contrasts.size(), 2u);
+  EXPECT_NEAR(*result.contrasts[0].mean, -10.2, 1e-12);
+  EXPECT_EQ(result.contrasts[0].n, 5);
+  EXPECT_LT(*result.contrasts[0].high, 0.0);
+}
+
+TEST_F(Stored, AClaimIsUndecidedWhereOneIntervalSpansBoth) {
+  const StudyResults all = results({{{rigid, "10"}, low},
+                                    {{pairwise, "10"}, high},
+                                    {{rigid, "20"}, low},
+                                    {{pairwise, "20"}, mixed}});
+  const ClaimResult result = judged(rigid_is_lower, all);
+  EXPECT_EQ(result.verdict, Verdict::undecided);
+  EXPECT_EQ(result.contrasts[0].verdict, Verdict::reproduced);
+  EXPECT_EQ(result.contrasts[1].verdict, Verdict::undecided);
+  ASSERT_TRUE(result.replications_needed);
+  EXPECT_GT(*result.replications_needed, 5);
+}
+
+TEST_F(Stored, AClaimIsContradictedByOneIntervalOnTheOtherSide) {
+  const StudyResults all = results({{{rigid, "10"}, low},
+                                    {{pairwise, "10"}, high},
+                                    {{rigid, "20"}, high},
+                                    {{pairwise, "20"}, low}});
+  EXPECT_EQ(judged(rigid_is_lower, all).verdict, Verdict::contradicted);
+  EXPECT_EQ(judged(rigid_is_lower, all, "where = { period = 10 }").verdict, Verdict::reproduced);
+}
+
+TEST_F(Stored, ClaimsOnBoundsTrendsAndLikenessAreTested) {
+  const StudyResults all = results({{{rigid, "10"}, low},
+                                    {{rigid, "20"}, high},
+                                    {{pairwise, "10"}, low},
+                                    {{pairwise, "20"}, high}});
+  const auto verdict = [&](const std::string& test) { return judged(test, all).verdict; };
+  EXPECT_EQ(verdict("kind = \"trend\"\ntrend = { along = \"period\", direction = \"rises\" }"),
+            Verdict::reproduced);
+  EXPECT_EQ(verdict("kind = \"trend\"\ntrend = { along = \"period\", direction = \"falls\" }"),
+            Verdict::contradicted);
+  EXPECT_EQ(verdict("kind = \"between\"\nbetween = { at_least = 5, at_most = 30 }"),
+            Verdict::reproduced);
+  EXPECT_EQ(verdict("kind = \"between\"\nbetween = { at_most = 15 }"), Verdict::contradicted);
+  // Equal values have no scatter to judge by.
+  EXPECT_EQ(verdict("kind = \"similar\"\nsimilar.cells = { behaviour = \"rigid_registration\" }\n"
+                    "similar.to = { behaviour = \"pairwise_referencing\" }"),
+            Verdict::undecided);
+}
+
+TEST_F(Stored, ClaimsOnWhatTheStudyLacksAreRefused) {
+  const StudyResults all = results({{{rigid, "10"}, low}});
+  EXPECT_EQ(complaint_of([&] { judged(rigid_is_lower, all, "where = { perod = 10 }"); }),
+            "claims.toml:1: the study has no factor \"perod\"; did you mean \"period\"?");
+  EXPECT_EQ(complaint_of([&] { judged(rigid_is_lower, all, "where = { period = 15 }"); }),
+            "claims.toml:1: no cell of the study is as `where` says");
+}
+
+TEST_F(Stored, ATableShowsNAndFailuresAndTheBestOnlyIfATestTellsIt) {
+  const StudyResults all =
+      results({{{rigid, "10"}, low}, {{pairwise, "10"}, high}, {{rigid, "20"}, low}});
+  TableRequest request;
+  request.name = "t";
+  request.rows = {"behaviour"};
+  request.columns = {"period"};
+  request.metrics = {"energy_mean_wh"};
+  request.best = Best::lowest;
+  request.compare = "behaviour";
+  request.test = PairedTest::paired_t;
+  const Table table = cell_table(request, all);
+  ASSERT_EQ(table.rows.size(), 2u);
+  const auto& best = std::get<Estimate>(table.rows[0][1]);
+  EXPECT_EQ(best.value, 12.0);
+  EXPECT_EQ(best.n, 5);
+  EXPECT_TRUE(best.best);
+  EXPECT_NEAR(std::get<PlusMinus>(best.uncertainty).by, 2.776445105 * std::sqrt(2.5 / 5.0), 1e-8);
+  EXPECT_FALSE(std::get<Estimate>(table.rows[1][1]).best);
+  EXPECT_EQ(std::get<Missing>(table.rows[1][2]).failed, 5);
+  EXPECT_FALSE(std::get<Estimate>(table.rows[0][2]).best);  // nothing to compare with
+
+  // Of five replications no sign-flip test reaches 5 % two-sided: 2 / 32.
+  request.test = PairedTest::sign_flip;
+  EXPECT_FALSE(std::get<Estimate>(cell_table(request, all).rows[0][1]).best);
+}
+
+TEST_F(Stored, AFactorIsNotAveragedInSilence) {
+  const StudyResults all = results({{{rigid, "10"}, low}, {{rigid, "20"}, high}});
+  TableRequest request;
+  request.name = "t";
+  request.rows = {"behaviour"};
+  request.metrics = {"energy_mean_wh"};
+  EXPECT_NE(complaint_of([&] { cell_table(request, all); }).find("period has several levels"),
+            std::string::npos);
+  request.pool = {"period"};
+  const Table table = cell_table(request, all);
+  EXPECT_EQ(std::get<Estimate>(table.rows[0][1]).n, 10);
+}
+
+TEST_F(Stored, DifferencesAreTakenSeedBySeed) {
+  const StudyResults all = results({{{rigid, "10"}, low}, {{pairwise, "10"}, mixed}});
+  ComparisonRequest request;
+  request.name = "d";
+  request.factor = "behaviour";
+  request.reference = rigid;
+  request.metrics = {"energy_mean_wh"};
+  const Table table = difference_table(request, all);
+  const auto& difference = std::get<Estimate>(table.rows[0][3]);
+  EXPECT_NEAR(difference.value, -0.2, 1e-12);  // -1, 1, -1, 1, -1
+  EXPECT_EQ(difference.n, 5);
+  // 20 of 32 patterns of signs sum to -1 or 1, the others lie further out: all are as far out.
+  EXPECT_EQ(std::get<Estimate>(table.rows[0][4]).value, 1.0);
+}
+
+}  // namespace
+}  // namespace shoal::analysis

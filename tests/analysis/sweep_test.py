@@ -1,0 +1,184 @@
+"""Sweeps as their user sees them: killed, continued, parted, changed, failing.
+
+    python3 sweep_test.py SHOAL [--kills N]     (the program; N: default 4)
+"""
+
+import os
+import random
+import signal
+import sqlite3
+import subprocess
+import sys
+import time
+
+import desk
+from desk import Desk
+
+KILLS = 4
+
+STUDY = """title = "two behaviours"
+scenario = "construction_square"
+replications = 3
+set = { trial.duration_s = 300 }
+
+[[factor]]
+name = "behaviour"
+key = "behaviour.kind"
+values = ["rigid_registration", "assignment_registration"]
+
+[[factor]]
+key = "behaviour.assignment_registration.delta_theta_deg"
+values = [10, 45]
+only = { behaviour = "assignment_registration" }
+
+[[table]]
+name = "energy"
+rows = ["behaviour", "delta_theta_deg"]
+metrics = ["energy_mean_wh", "quality_final_m"]
+
+[[table]]
+name = "against_time"
+columns = ["behaviour"]
+pool = ["delta_theta_deg"]
+series = ["quality"]
+every = 60
+"""
+TRIALS = 9  # rigid registration has no delta theta to vary
+
+
+class Sweep(Desk):
+    def setUp(self):
+        super().setUp()
+        self.write("study.toml", STUDY)
+
+    def sweep(self, *arguments, study="study.toml", out="out"):
+        done = self.shoal("sweep", study, "--out", out, *arguments)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        return done.stdout
+
+    def tables(self, out="out"):
+        return {f.name: f.read_bytes() for f in (self.desk / out / "tables").iterdir()}
+
+    def rows(self, columns, out="out"):
+        store = sqlite3.connect(self.desk / out / "trials.sqlite")
+        try:
+            return store.execute(f"SELECT {columns} FROM trial ORDER BY trial_key").fetchall()
+        finally:
+            store.close()
+
+    def test_the_tables_do_not_depend_on_the_number_of_jobs(self):
+        self.assertIn(f"{TRIALS} of {TRIALS} trials are stored", self.sweep("--jobs", 1, out="one"))
+        self.sweep("--jobs", 3, out="three")
+        self.assertEqual(len(self.tables("one")), 6)
+        self.assertEqual(self.tables("one"), self.tables("three"))
+        self.assertIn(f"{TRIALS} of them run now", self.sweep(out="again"))
+        self.assertIn(" 0 of them run now", self.sweep(out="again"))
+
+    def test_a_sweep_that_is_killed_goes_on_where_it_was(self):
+        self.write("long.toml", STUDY.replace("= 300", "= 1200"))
+        self.sweep(study="long.toml", out="whole")
+        moments = random.Random(1)
+        stored = 0
+        for _ in range(KILLS):
+            with subprocess.Popen([desk.SHOAL, "sweep", "long.toml", "--out", "out", "--jobs", "2"],
+                                  cwd=self.desk, stdout=subprocess.DEVNULL,
+                                  stderr=subprocess.DEVNULL) as running:
+                time.sleep(moments.uniform(0.05, 0.4))
+                os.kill(running.pid, signal.SIGKILL)
+            if (self.desk / "out/trials.sqlite").exists():
+                try:
+                    now = len(self.rows("trial_key"))
+                except sqlite3.OperationalError:  # killed before it made its tables
+                    now = 0
+                self.assertGreaterEqual(now, stored)
+                stored = now
+        self.sweep(study="long.toml")
+        self.assertEqual(self.tables(), self.tables("whole"))
+        self.assertEqual(self.rows("trial_id, energy_mean_wh"),
+                         self.rows("trial_id, energy_mean_wh", "whole"))
+
+    def test_shards_part_the_trials(self):
+        self.sweep("--shard", "1/2", out="first")
+        self.sweep("--shard", "2/2", out="second")
+        first, second = self.rows("trial_key", "first"), self.rows("trial_key", "second")
+        self.assertEqual(len(first) + len(second), TRIALS)
+        self.assertEqual(len(set(first + second)), TRIALS)
+
+    def test_the_same_seeds_stand_in_every_cell(self):
+        self.sweep()
+        seeds = {}
+        for behaviour, delta, seed in self.rows('"f:behaviour", "f:delta_theta_deg", seed'):
+            seeds.setdefault((behaviour, delta), set()).add(seed)
+        self.assertEqual(seeds, {("rigid_registration", "-"): {1, 2, 3},
+                                 ("assignment_registration", "10"): {1, 2, 3},
+                                 ("assignment_registration", "45"): {1, 2, 3}})
+
+    def test_what_has_changed_is_not_mixed_in(self):
+        self.sweep()
+        before = self.rows("energy_mean_wh")
+        self.write("study.toml", STUDY.replace("= 300", "= 310"))
+        refused = self.shoal("sweep", "study.toml", "--out", "out")
+        self.assert_complains(refused, 2, ["9 of the trials stored in out", "has changed",
+                                           "--rerun-changed"])
+        self.assertEqual(self.rows("energy_mean_wh"), before)
+        self.assertIn("9 of them run now", self.sweep("--rerun-changed"))
+        self.assertNotEqual(self.rows("energy_mean_wh"), before)
+
+    def test_more_replications_run_only_what_is_missing(self):
+        self.sweep()
+        self.assertIn("12 of 12 trials are stored, 3 of them run now",
+                      self.sweep("--replications", 4))
+
+    def test_a_failed_trial_stays_with_its_reason_and_shows_in_the_tables(self):
+        self.write("sea.toml", STUDY.replace("construction_square", "redsea_square") + """
+[[factor]]
+name = "late"
+key = "current.netcdf.time_offset_s"
+values = [0, 1000000]
+""")
+        text = (self.desk / "sea.toml").read_text()
+        self.write("sea.toml", text.replace('pool = ["delta', 'pool = ["late", "delta')
+                   .replace('"delta_theta_deg"]\nmetrics', '"delta_theta_deg", "late"]\nmetrics'))
+        said = self.sweep(study="sea.toml")
+        self.assertIn("9 failed; the first: ", said)
+        reasons = {reason for status, reason in self.rows("status, reason") if status == "failed"}
+        self.assertEqual(len(reasons), 1)
+        self.assertIn("no current at", reasons.pop())
+        self.assertIn("all 3 failed", self.tables()["energy.md"].decode())
+        self.assertIn(" 0 of them run now", self.sweep(study="sea.toml"))
+        self.assertIn(" 9 of them run now", self.sweep("--retry-failed", study="sea.toml"))
+        self.sweep("--fail-fast", "--jobs", 1, study="sea.toml", out="fast")
+        self.assertLess(len(self.rows("status", "fast")), 18)
+
+    def test_a_second_sweep_of_the_same_folder_is_refused(self):
+        self.write("long.toml", STUDY.replace("= 300", "= 18000"))
+        with subprocess.Popen([desk.SHOAL, "sweep", "long.toml", "--out", "out"], cwd=self.desk,
+                              stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL) as running:
+            while not (self.desk / "out/manifest.json").exists():
+                time.sleep(0.01)
+            refused = self.shoal("sweep", "long.toml", "--out", "out")
+            running.kill()
+        self.assert_complains(refused, 1, ["out is in use by another shoal"])
+
+    def test_bad_studies_are_refused_before_anything_runs(self):
+        for what, wrong, right, parts in [
+                ("a key", "delta_thta", "delta_theta", ['no option "delta_thta_deg"', "did you mean"]),
+                ("a value", "[10, 450]", "[10, 45]", ["delta_theta_deg is 450", "in the cell"]),
+                ("a metric", "energy_mean\"", "energy_mean_wh\"", ['"energy_mean"', "did you mean"]),
+                ("a row", 'rows = ["behavior"', 'rows = ["behaviour"', ['"behavior"', "did you mean"]),
+                ("a pooled factor", "", 'pool = ["delta_theta_deg"]\n',
+                 ["delta_theta_deg has several levels", "pool"]),
+                ("a base", "construction_squre", "construction_square", ["did you mean"])]:
+            with self.subTest(what):
+                self.write("bad.toml", STUDY.replace(right, wrong))
+                done = self.shoal("sweep", "bad.toml", "--out", "bad")
+                self.assert_complains(done, 2, ["bad.toml", *parts])
+                self.assertFalse((self.desk / "bad/manifest.json").exists())
+
+
+if __name__ == "__main__":
+    if "--kills" in sys.argv:
+        place = sys.argv.index("--kills")
+        KILLS = int(sys.argv.pop(place + 1))
+        sys.argv.pop(place)
+    desk.main()
