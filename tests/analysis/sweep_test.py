@@ -166,7 +166,7 @@ values = [0, 1000000]
                 ("a value", "[10, 450]", "[10, 45]", ["delta_theta_deg is 450", "in the cell"]),
                 ("a metric", "energy_mean\"", "energy_mean_wh\"", ['"energy_mean"', "did you mean"]),
                 ("a row", 'rows = ["behavior"', 'rows = ["behaviour"', ['"behavior"', "did you mean"]),
-                ("a pooled factor", "", 'pool = ["delta_theta_deg"]\n',
+                ("a factor left out", 'rows = ["behaviour"]', 'rows = ["behaviour", "delta_theta_deg"]',
                  ["delta_theta_deg has several levels", "pool"]),
                 ("a base", "construction_squre", "construction_square", ["did you mean"])]:
             with self.subTest(what):
