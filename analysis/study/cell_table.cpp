@@ -1,7 +1,6 @@
 #include "shoal/analysis/study/cell_table.hpp"
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 #include <optional>
 #include <set>
@@ -9,8 +8,8 @@
 
 #include "shoal/analysis/measure.hpp"
 #include "shoal/analysis/statistics/holm.hpp"
-#include "shoal/analysis/statistics/intervals.hpp"
-#include "shoal/analysis/statistics/summary.hpp"
+#include "shoal/analysis/statistics/sample.hpp"
+#include "shoal/analysis/study/cells.hpp"
 #include "shoal/analysis/study/confidence.hpp"
 #include "shoal/analysis/study/paired_test.hpp"
 #include "shoal/analysis/study/slices.hpp"
@@ -22,26 +21,6 @@ namespace {
 constexpr std::size_t most_steps = 100000;
 
 using Place = std::vector<std::size_t>;
-
-std::string note_on(Statistic statistic) {
-  switch (statistic) {
-    case Statistic::mean:
-      return "Means.";
-    case Statistic::mean_ci:
-      return "Mean and half the 95 % confidence interval (Student).";
-    case Statistic::mean_sd:
-      return "Mean and standard deviation.";
-    case Statistic::mean_range:
-      return "Mean, least and greatest.";
-    case Statistic::mean_bca:
-      return "Mean and 95 % confidence interval (BCa bootstrap).";
-    case Statistic::median_quartiles:
-      return "Median and quartiles.";
-    case Statistic::count:
-      return "Number of values.";
-  }
-  return "";
-}
 
 /// A request laid out: which dimension of the slices runs where.
 class CellTable {
@@ -267,73 +246,6 @@ class CellTable {
 };
 
 }  // namespace
-
-Cell cell_of(const std::vector<double>& values, int failed, Statistic statistic) {
-  if (values.empty()) return Missing{failed};
-  const statistics::Summary summary = statistics::summarise(values);
-  const std::optional<double> error = statistics::standard_error(values);
-  Estimate cell{.value = summary.mean, .n = summary.n, .failed = failed};
-  // Without a scatter there is no uncertainty to take the digits from.
-  cell.digits = error ? decimals_for(*error) : Digits::significant(4);
-  switch (statistic) {
-    case Statistic::mean:
-      break;
-    case Statistic::mean_ci:
-      if (const auto interval = statistics::t_interval(values, confidence)) {
-        const double half = (interval->high - interval->low) / 2.0;
-        cell.uncertainty = PlusMinus{half};
-        cell.digits = decimals_for(half);
-      }
-      break;
-    case Statistic::mean_sd:
-      if (summary.n > 1) cell.uncertainty = Deviation{summary.sd};
-      break;
-    case Statistic::mean_range:
-      cell.uncertainty = Between{summary.least, summary.greatest};
-      break;
-    case Statistic::mean_bca:
-      if (const auto interval = statistics::bca_interval_of_mean(values, confidence)) {
-        cell.uncertainty = Between{interval->low, interval->high};
-      }
-      break;
-    case Statistic::median_quartiles:
-      cell.value = summary.median;
-      cell.uncertainty = Between{summary.q1, summary.q3};
-      break;
-    case Statistic::count:
-      cell.value = summary.n;
-      cell.n = 0;
-      cell.digits = Digits::decimals(0);
-      break;
-  }
-  return cell;
-}
-
-std::string heading_of(const Quantity& quantity) {
-  std::string unit;
-  for (const char c : quantity.unit) {
-    unit += c == '/' ? std::string("_per_") : std::string(1, static_cast<char>(std::tolower(c)));
-  }
-  std::string name = quantity.name;
-  if (!unit.empty() && name.ends_with("_" + unit)) name.resize(name.size() - unit.size() - 1);
-  std::ranges::replace(name, '_', ' ');
-  return name;
-}
-
-std::vector<Cell> label_cells(const std::vector<std::string>& labels) {
-  std::vector<Cell> numbers;
-  for (const std::string& label : labels) {
-    const std::optional<double> number = parsed_number(label);
-    if (label == not_applied || label.empty()) {
-      numbers.emplace_back(Missing{});
-    } else if (number) {
-      numbers.emplace_back(Estimate{.value = *number, .digits = Digits::significant(9)});
-    } else {
-      return {labels.begin(), labels.end()};
-    }
-  }
-  return numbers;
-}
 
 Table cell_table(const TableRequest& request, const StudyResults& results) {
   return CellTable(request, results).table();

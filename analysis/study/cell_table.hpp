@@ -1,8 +1,5 @@
 #pragma once
 
-#include <vector>
-
-#include "shoal/analysis/measure.hpp"
 #include "shoal/analysis/study/results.hpp"
 #include "shoal/analysis/study/study.hpp"
 #include "shoal/analysis/tables/table.hpp"
@@ -11,14 +8,5 @@ namespace shoal::analysis {
 
 /// The table that a study asks for. Throws InputError if it asks for what the study does not have.
 Table cell_table(const TableRequest& request, const StudyResults& results);
-
-/// What the cells of a table hold: the statistic over a sample; missing where it has no value.
-Cell cell_of(const std::vector<double>& values, int failed, Statistic statistic);
-
-/// `energy mean` of energy_mean_wh: a name without its unit, as words.
-std::string heading_of(const Quantity& quantity);
-
-/// A label as a number where all labels of the dimension are numbers, or as a text.
-std::vector<Cell> label_cells(const std::vector<std::string>& labels);
 
 }  // namespace shoal::analysis

@@ -8,7 +8,7 @@
 #include "shoal/analysis/statistics/holm.hpp"
 #include "shoal/analysis/statistics/intervals.hpp"
 #include "shoal/analysis/statistics/power.hpp"
-#include "shoal/analysis/study/cell_table.hpp"
+#include "shoal/analysis/study/cells.hpp"
 #include "shoal/analysis/study/confidence.hpp"
 #include "shoal/analysis/study/paired_test.hpp"
 #include "shoal/analysis/study/slices.hpp"

@@ -5,7 +5,7 @@
 #include "shoal/analysis/measure.hpp"
 #include "shoal/analysis/sensitivity/morris_effects.hpp"
 #include "shoal/analysis/sensitivity/sobol_indices.hpp"
-#include "shoal/analysis/study/cell_table.hpp"
+#include "shoal/analysis/study/cells.hpp"
 #include "shoal/analysis/study/confidence.hpp"
 #include "shoal/analysis/study/slices.hpp"
 

@@ -3,11 +3,9 @@
 #include <sqlite3.h>
 
 #include <algorithm>
-#include <cmath>
-#include <cstring>
-#include <map>
 #include <span>
 
+#include "shoal/analysis/study/sqlite.hpp"
 #include "shoal/core/error.hpp"
 
 namespace shoal::analysis {
@@ -60,73 +58,6 @@ struct Store::Database {
 
 namespace {
 
-/// A prepared statement.
-class Statement {
- public:
-  Statement(sqlite3* connection, const std::string& sql) : connection_(connection) {
-    if (sqlite3_prepare_v2(connection, sql.c_str(), -1, &statement_, nullptr) != SQLITE_OK) {
-      throw SystemError(std::string("the store does not take a statement: ") +
-                        sqlite3_errmsg(connection));
-    }
-  }
-  ~Statement() { sqlite3_finalize(statement_); }
-  Statement(const Statement&) = delete;
-  Statement& operator=(const Statement&) = delete;
-
-  void bind(int i, const std::string& text) {
-    sqlite3_bind_text(statement_, i, text.data(), static_cast<int>(text.size()), SQLITE_TRANSIENT);
-  }
-  void bind(int i, std::int64_t number) { sqlite3_bind_int64(statement_, i, number); }
-  void bind(int i, const std::optional<double>& number) {
-    // SQLite keeps no NaN, and a measure has none: what has no value is null.
-    if (number) {
-      sqlite3_bind_double(statement_, i, *number);
-    } else {
-      sqlite3_bind_null(statement_, i);
-    }
-  }
-  void bind(int i, std::span<const double> numbers) {
-    // An empty span may have no address, which SQLite would take for null.
-    const void* bytes = numbers.empty() ? "" : static_cast<const void*>(numbers.data());
-    sqlite3_bind_blob64(statement_, i, bytes, numbers.size_bytes(), SQLITE_STATIC);
-  }
-
-  /// Whether there is a row. Throws SystemError.
-  bool step() {
-    const int code = sqlite3_step(statement_);
-    if (code != SQLITE_ROW && code != SQLITE_DONE) {
-      throw SystemError(std::string("cannot use the store: ") + sqlite3_errmsg(connection_) +
-                        "; check free space and permissions");
-    }
-    return code == SQLITE_ROW;
-  }
-
-  std::string text(int i) const {
-    const auto* bytes = reinterpret_cast<const char*>(sqlite3_column_text(statement_, i));
-    return bytes ? std::string(bytes, static_cast<std::size_t>(sqlite3_column_bytes(statement_, i)))
-                 : std::string();
-  }
-  bool null(int i) const { return sqlite3_column_type(statement_, i) == SQLITE_NULL; }
-  std::int64_t integer(int i) const { return sqlite3_column_int64(statement_, i); }
-  std::optional<double> number(int i) const {
-    if (null(i)) return std::nullopt;
-    return sqlite3_column_double(statement_, i);
-  }
-  std::vector<double> numbers(int i) const {
-    std::vector<double> numbers(static_cast<std::size_t>(sqlite3_column_bytes(statement_, i)) /
-                                sizeof(double));
-    if (!numbers.empty()) {
-      std::memcpy(numbers.data(), sqlite3_column_blob(statement_, i),
-                  numbers.size() * sizeof(double));
-    }
-    return numbers;
-  }
-
- private:
-  sqlite3* connection_;
-  sqlite3_stmt* statement_ = nullptr;
-};
-
 std::vector<std::string> column_list(sqlite3* connection, const std::string& list) {
   std::vector<std::string> names;
   Statement select(connection, "SELECT column_name FROM " + list + " ORDER BY place");
@@ -137,27 +68,6 @@ std::vector<std::string> column_list(sqlite3* connection, const std::string& lis
 std::string factor_column(const std::string& name) {
   return quoted("f:" + name);
 }
-
-/// All or nothing.
-class Transaction {
- public:
-  explicit Transaction(sqlite3* connection) : connection_(connection) { run("BEGIN IMMEDIATE"); }
-  ~Transaction() {
-    if (!done_) sqlite3_exec(connection_, "ROLLBACK", nullptr, nullptr, nullptr);
-  }
-  Transaction(const Transaction&) = delete;
-  Transaction& operator=(const Transaction&) = delete;
-
-  void commit() {
-    run("COMMIT");
-    done_ = true;
-  }
-
- private:
-  void run(const char* sql) { Statement(connection_, sql).step(); }
-  sqlite3* connection_;
-  bool done_ = false;
-};
 
 }  // namespace
 

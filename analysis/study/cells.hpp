@@ -1,0 +1,24 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "shoal/analysis/measure.hpp"
+#include "shoal/analysis/study/study.hpp"
+#include "shoal/analysis/tables/table.hpp"
+
+namespace shoal::analysis {
+
+/// What the cells of a table hold: the statistic over a sample; missing where it has no value.
+Cell cell_of(const std::vector<double>& values, int failed, Statistic statistic);
+
+/// What a note says of a statistic: `Means.`
+std::string note_on(Statistic statistic);
+
+/// `energy mean` of energy_mean_wh: a name without its unit, as words.
+std::string heading_of(const Quantity& quantity);
+
+/// A label as a number where all labels of the dimension are numbers, or as a text.
+std::vector<Cell> label_cells(const std::vector<std::string>& labels);
+
+}  // namespace shoal::analysis

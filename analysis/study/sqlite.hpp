@@ -1,0 +1,58 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+struct sqlite3;
+struct sqlite3_stmt;
+
+namespace shoal::analysis {
+
+/// A prepared statement of SQLite. Parameters count from 1, columns from 0.
+class Statement {
+ public:
+  /// Throws SystemError if it is not one.
+  Statement(sqlite3* connection, const std::string& sql);
+  ~Statement();
+  Statement(const Statement&) = delete;
+  Statement& operator=(const Statement&) = delete;
+
+  void bind(int i, const std::string& text);
+  void bind(int i, std::int64_t number);
+  void bind(int i, const std::optional<double>& number);
+  /// As their bytes; they must outlive the statement.
+  void bind(int i, std::span<const double> numbers);
+
+  /// Whether there is a row. Throws SystemError.
+  bool step();
+
+  std::string text(int i) const;
+  bool null(int i) const;
+  std::int64_t integer(int i) const;
+  std::optional<double> number(int i) const;
+  std::vector<double> numbers(int i) const;
+
+ private:
+  sqlite3* connection_;
+  sqlite3_stmt* statement_ = nullptr;
+};
+
+/// All that is written until commit(), or nothing of it.
+class Transaction {
+ public:
+  explicit Transaction(sqlite3* connection);
+  ~Transaction();
+  Transaction(const Transaction&) = delete;
+  Transaction& operator=(const Transaction&) = delete;
+
+  void commit();
+
+ private:
+  sqlite3* connection_;
+  bool done_ = false;
+};
+
+}  // namespace shoal::analysis
