@@ -13,8 +13,6 @@
 #include "shoal/analysis/study/trial_outcome.hpp"
 #include "shoal/scenarios/toml_file.hpp"
 
-extern char** environ;
-
 namespace shoal::analysis {
 namespace {
 
