@@ -22,7 +22,7 @@ step 'every solver on every known problem'
 build/ci/bin/solvers_test --gtest_brief=1 --gtest_filter='SolverMatrix.*'
 
 step 'format and lint'
-tests/lint.sh build/ci
+/usr/bin/python3 tests/lint.py build/ci
 
 step 'sanitizers'
 cmake --preset asan >/dev/null

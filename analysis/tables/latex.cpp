@@ -141,7 +141,7 @@ std::string notes(const std::vector<Note>& notes) {
 std::string as_latex(const Table& table) {
   const Layout layout(table);
   std::string printed =
-      "% \\usepackage{booktabs,siunitx}\n\\begin{table}\n  \\centering\n"
+      "% \\usepackage{booktabs,graphicx,siunitx}\n\\begin{table}\n  \\centering\n"
       "  \\sisetup{group-digits=false}%\n";
   if (!table.caption.empty()) {
     printed += "  \\setlength{\\belowcaptionskip}{\\medskipamount}%\n  \\caption{" +
@@ -152,8 +152,9 @@ std::string as_latex(const Table& table) {
   if (std::ranges::any_of(layout.columns, &LaidColumn::best)) {
     printed += "  \\def\\best#1#2{\\llap{\\boldmath$#1$}\\rlap{\\boldmath$#2$}}%\n";
   }
-  // The box tells how wide the notes may be.
+  // The box tells how wide the notes may be; wider than the lines of the paper, it is scaled down.
   printed += "  \\sbox0{%\n" + tabular(table, layout) + "}%\n";
+  printed += "  \\ifdim\\wd0>\\linewidth\\sbox0{\\resizebox{\\linewidth}{!}{\\usebox0}}\\fi\n";
   printed += "  \\begin{minipage}{\\wd0}\n    \\usebox0\n" + notes(layout.notes);
   return printed + "  \\end{minipage}\n\\end{table}\n";
 }

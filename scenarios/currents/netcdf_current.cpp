@@ -22,6 +22,7 @@ struct NetcdfOptions {
   double origin_x_m = 0.0;
   double origin_y_m = 0.0;
   double depth_m = 0.0;
+  double strength = 1.0;
   Outside outside = Outside::error;
   std::string u_variable;
   std::string v_variable;
@@ -40,6 +41,8 @@ struct NetcdfOptions {
     o.number("origin_y_m", &N::origin_y_m, "m", {}, "the mission's origin on projected axes, y");
     o.number("depth_m", &N::depth_m, "m", at_least(0.0),
              "depth of the current, interpolated between the levels of the file");
+    o.number("strength", &N::strength, "", in(0.0, 100.0),
+             "the velocities of the file are multiplied by it: what if the current were stronger");
     o.word("outside", &N::outside, {{"error", Outside::error}, {"clamp", Outside::clamp}},
            "outside the data: an error, or the nearest time, level and wet place");
     o.text("u_variable", &N::u_variable, "name of the eastward component, if it must be chosen");
@@ -75,7 +78,7 @@ class NetcdfCurrent final : public Current {
       // Complaints during a trial point at where the file was named.
       std::string name = options.file.origin.prefix() + waters->name;
       return std::unique_ptr<Current>(
-          new NetcdfCurrent(std::move(name), options.outside, std::move(waters), start_s));
+          new NetcdfCurrent(std::move(name), options, std::move(waters), start_s));
     } catch (const InputError& error) {
       throw InputError(options.file.origin, error.what());
     }
@@ -88,6 +91,8 @@ class NetcdfCurrent final : public Current {
     const std::size_t reached = waters_->field.sample(
         time_s + start_s_, waters_->frame.grid_from_mission, clamp, x_m, y_m, u_m_s, v_m_s);
     if (reached < x_m.size()) refuse_place(time_s, x_m[reached], y_m[reached]);
+    for (double& u : u_m_s) u *= strength_;
+    for (double& v : v_m_s) v *= strength_;
   }
 
   void require_duration(double duration_s) const override {
@@ -97,9 +102,13 @@ class NetcdfCurrent final : public Current {
   }
 
  private:
-  NetcdfCurrent(std::string name, Outside outside, std::shared_ptr<const Waters> waters,
-                double start_s)
-      : name_(std::move(name)), outside_(outside), waters_(std::move(waters)), start_s_(start_s) {}
+  NetcdfCurrent(std::string name, const NetcdfOptions& options,
+                std::shared_ptr<const Waters> waters, double start_s)
+      : name_(std::move(name)),
+        outside_(options.outside),
+        strength_(options.strength),
+        waters_(std::move(waters)),
+        start_s_(start_s) {}
 
   /// Mission start, in seconds since the first time in the file.
   static double start_in_file(const Waters& waters, const NetcdfOptions& options) {
@@ -172,6 +181,7 @@ class NetcdfCurrent final : public Current {
 
   std::string name_;
   Outside outside_;
+  double strength_;
   std::shared_ptr<const Waters> waters_;
   double start_s_;
 };

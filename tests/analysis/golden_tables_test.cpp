@@ -129,6 +129,25 @@ Table special() {
           .notes = {"All of 100% & more_of_it | *as it stands*."}};
 }
 
+/// Wider than a page: envelopes against time under each of five ping periods.
+Table wide() {
+  Table table{.name = "wide",
+              .caption = "More than a page is wide: it is scaled down",
+              .columns = {{"time", "s"}}};
+  for (const char* period : {"5", "15", "30", "60", "120"}) {
+    table.columns.push_back({period, "s", "energy (Wh) at ping period", "s"});
+  }
+  for (const double time : {300.0, 600.0, 900.0}) {
+    table.rows.push_back({estimate(time, {}, 0)});
+    for (int k = 0; k < 5; ++k) {
+      const double mean = 1000.0 + time + k;
+      table.rows.back().push_back(of(5, estimate(mean, Between{mean - 20.4, mean + 31.7}, 2)));
+    }
+  }
+  table.notes = {"Mean [least, greatest]."};
+  return table;
+}
+
 Table empty() {
   return {.name = "empty",
           .caption = "Nothing yet",
@@ -143,7 +162,7 @@ struct Case {
 constexpr Case cases[] = {
     {"plain", plain},       {"spanning", spanning},     {"failures", failures},
     {"negative", negative}, {"magnitudes", magnitudes}, {"special", special},
-    {"empty", empty}};
+    {"wide", wide},         {"empty", empty}};
 
 class GoldenTables : public testing::TestWithParam<Case> {};
 

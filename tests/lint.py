@@ -1,0 +1,104 @@
+#!/usr/bin/env python3
+"""tests/lint.py BUILD_DIR: clang-format and clang-tidy on everything of ours.
+
+A source that clang-tidy found clean is not read again while neither it nor what it includes, its
+compile command or the checks have changed: the key of all that is kept in the user's cache, which
+any clone may use. Delete ~/.cache/shoal/clang-tidy to begin anew.
+"""
+
+import concurrent.futures
+import hashlib
+import json
+import os
+import pathlib
+import re
+import subprocess
+import sys
+
+TOP = pathlib.Path(__file__).resolve().parent.parent
+CACHE_HOME = pathlib.Path(os.environ.get("XDG_CACHE_HOME") or pathlib.Path.home() / ".cache")
+CACHE = CACHE_HOME / "shoal" / "clang-tidy"
+LINTED = ["core", "solvers", "formations", "scenarios", "analysis"]
+
+
+def files(folders, *endings):
+    found = [p for folder in folders for p in (TOP / folder).rglob("*") if p.suffix in endings]
+    return sorted(found)
+
+
+def check_format():
+    sources = files(LINTED + ["tests"], ".cpp", ".hpp")
+    subprocess.run(["clang-format", "--dry-run", "--Werror", *map(str, sources)], check=True)
+
+
+def included_files(build):
+    """What each object was compiled from, as ninja knows it: {object: [file]}."""
+    text = subprocess.run(["ninja", "-C", build, "-t", "deps"], check=True, capture_output=True, text=True).stdout
+    included, current = {}, None
+    for line in text.splitlines():
+        if line.startswith("    "):
+            included[current].append(line.strip())
+        elif line:
+            current = line.split(":", 1)[0]
+            included[current] = []
+    return included
+
+
+def key_of(command, included, build, checks):
+    digest = hashlib.sha256(checks)
+    digest.update(command["command"].replace(str(TOP), "").encode())
+    for name in sorted(included):
+        path = pathlib.Path(build, name).resolve()
+        inside = path.is_relative_to(TOP)
+        digest.update(str(path.relative_to(TOP) if inside else path).encode())
+        if inside:
+            digest.update(path.read_bytes())
+        else:
+            digest.update(str(path.stat().st_mtime_ns).encode())
+    return digest.hexdigest()
+
+
+def tidy(source, build):
+    done = subprocess.run(
+        ["clang-tidy", "-p", build, "--quiet", "--extra-arg=-Wno-unknown-warning-option", source],
+        capture_output=True, text=True)
+    complaints = "\n".join(l for l in done.stderr.splitlines() if not re.search(r"warnings? .*generated", l))
+    return done.returncode, done.stdout + complaints
+
+
+def check_tidy(build):
+    version = subprocess.run(["clang-tidy", "--version"], check=True, capture_output=True).stdout
+    checks = version + (TOP / ".clang-tidy").read_bytes()
+    commands = {c["file"]: c for c in json.loads(pathlib.Path(build, "compile_commands.json").read_text())}
+    included = included_files(build)
+    CACHE.mkdir(parents=True, exist_ok=True)
+
+    waiting = []
+    sources = [str(s) for s in files(LINTED, ".cpp")]
+    for source in sources:
+        if source not in commands:
+            sys.exit(f"lint: {source} is not compiled, so it cannot be checked")
+        command = commands[source]
+        built_from = included.get(command["output"])
+        key = key_of(command, built_from, build, checks) if built_from else None
+        if key is None or not (CACHE / key).exists():
+            waiting.append((source, key))
+    print(f"clang-tidy: {len(sources)} sources, {len(sources) - len(waiting)} known to be clean", flush=True)
+
+    failed = 0
+    with concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
+        work = {pool.submit(tidy, source, build): key for source, key in waiting}
+        for done in concurrent.futures.as_completed(work):
+            status, text = done.result()
+            if text:
+                print(text, flush=True)
+            if status != 0:
+                failed += 1
+            elif work[done]:
+                (CACHE / work[done]).touch()
+    if failed:
+        sys.exit(f"lint: {failed} sources have complaints")
+
+
+check_format()
+check_tidy(str(pathlib.Path(sys.argv[1]).resolve()))

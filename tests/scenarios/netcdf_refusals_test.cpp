@@ -1,0 +1,158 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <fstream>
+
+#include "shoal/scenarios/currents/netcdf_report.hpp"
+#include "tests/support/current_files.hpp"
+
+namespace shoal::scenarios {
+namespace {
+
+using namespace current_files;
+
+// --- understanding, and refusing -------------------------------------------------------------
+
+TEST(NetcdfCurrent, ConvertsUnitsOfVelocity) {
+  const auto speed = [](const std::string& units) {
+    File file;
+    file.units = units;
+    file.velocity = [](double, double, double, double) { return Vector2d(1.0, 0.0); };
+    return at(*open(file.write("units.nc")), 0, 0, 0).x();
+  };
+  for (const char* units : {"m s-1", "m/s", "meter second-1", "m.s-1", "metre/second", "m s^-1"}) {
+    EXPECT_EQ(speed(units), 1.0) << units;
+  }
+  EXPECT_NEAR(speed("cm/s"), 0.01, 1e-9);
+  EXPECT_NEAR(speed("cm s-1"), 0.01, 1e-9);
+  EXPECT_NEAR(speed("knots"), 0.514444, 1e-6);
+  EXPECT_THROW(speed("m"), InputError);
+  EXPECT_THROW(speed("furlong/fortnight"), InputError);
+  EXPECT_THROW(speed(""), InputError);
+}
+
+TEST(NetcdfCurrent, FindsVelocitiesByCommonNames) {
+  File file;
+  file.u_name = file.v_name = "";
+  EXPECT_NO_THROW(open(file.write("common.nc")));
+}
+
+TEST(NetcdfCurrent, NamesTheCandidatesWhenThereAreTwo) {
+  File file;
+  file.variables = [](NetcdfWriter& w) {
+    w.variable("u2", NC_DOUBLE, {"time", "y", "x"}, Values(36, 0.25))
+        .text("standard_name", "surface_eastward_sea_water_velocity")
+        .text("units", "m/s");
+    w.variable("v2", NC_DOUBLE, {"time", "y", "x"}, Values(36, 0.5))
+        .text("standard_name", "surface_northward_sea_water_velocity")
+        .text("units", "m/s");
+  };
+  const std::string why = refusal(file.write("two.nc"));
+  EXPECT_SAYS(why, "u and u2 with v and v2");
+  const auto water = open(scratch("two.nc"), {{"u_variable", plain(std::string("u2"))},
+                                              {"v_variable", plain(std::string("v2"))}});
+  EXPECT_EQ(at(*water, 0, 50, 50), Vector2d(0.25, 0.5));
+  EXPECT_SAYS(refusal(scratch("two.nc"), {{"u_variable", plain(std::string("u3"))},
+                                          {"v_variable", plain(std::string("v2"))}}),
+              "did you mean");
+  EXPECT_SAYS(refusal(scratch("two.nc"), {{"u_variable", plain(std::string("u2"))}}), "together");
+}
+
+TEST(NetcdfCurrent, RefusesStaggeredAndCurvilinearGrids) {
+  const auto write = [](const std::string& name, bool staggered) {
+    NetcdfWriter w(scratch(name));
+    w.dimension("eta", 3).dimension("xi", 3).dimension("xi_v", 2);
+    w.variable("lon", NC_DOUBLE, {"eta", "xi"}, {0, 1, 2, 0, 1, 2, 0, 1, 3})
+        .text("units", "degrees_east");
+    w.variable("lat", NC_DOUBLE, {"eta", "xi"}, {0, 0, 0, 1, 1, 1, 2, 2, 2})
+        .text("units", "degrees_north");
+    w.variable("u", NC_DOUBLE, {"eta", "xi"}, Values(9, 0.0))
+        .text("standard_name", "sea_water_x_velocity")
+        .text("units", "m/s");
+    w.variable("v", NC_DOUBLE, {"eta", staggered ? "xi_v" : "xi"}, Values(9, 0.0))
+        .text("standard_name", "sea_water_y_velocity")
+        .text("units", "m/s");
+    w.finish();
+    return refusal(scratch(name));
+  };
+  EXPECT_SAYS(write("curvilinear.nc", false), "u(eta, xi) stands on a curvilinear grid");
+  EXPECT_SAYS(write("staggered.nc", true), "staggered (Arakawa C) grid");
+}
+
+TEST(NetcdfCurrent, RefusesAxesItWouldHaveToGuess) {
+  File file;
+  file.x_units = "";
+  EXPECT_SAYS(refusal(file.write("no_units.nc")), "the axis x has no units");
+  file.x_units = "furlongs";
+  EXPECT_SAYS(refusal(file.write("furlongs.nc")), "furlongs");
+  file = File{};
+  file.x = {0, 200, 100};
+  EXPECT_SAYS(refusal(file.write("jumping.nc")), "x is not strictly monotonic");
+  file.x = {0};
+  EXPECT_SAYS(refusal(file.write("point.nc")), "a single point");
+  file = File{};
+  std::swap(file.x_units, file.time_units);
+  EXPECT_NE(refusal(file.write("swapped.nc")), "");
+}
+
+TEST(NetcdfCurrent, RefusesDimensionsInAnotherOrder) {
+  NetcdfWriter w(scratch("order.nc"));
+  w.dimension("x", 2).dimension("y", 2);
+  w.variable("x", NC_DOUBLE, {"x"}, {0, 1}).text("units", "m").text("axis", "X");
+  w.variable("y", NC_DOUBLE, {"y"}, {0, 1}).text("units", "m").text("axis", "Y");
+  w.variable("u", NC_DOUBLE, {"x", "y"}, Values(4, 0.0)).text("units", "m/s");
+  w.variable("v", NC_DOUBLE, {"x", "y"}, Values(4, 0.0)).text("units", "m/s");
+  w.finish();
+  EXPECT_SAYS(refusal(scratch("order.nc")), "in the order time, depth, y, x");
+}
+
+TEST(NetcdfCurrent, RefusesFilesThatAreNone) {
+  EXPECT_SAYS(refusal(scratch("missing.nc")), "there is no file");
+  EXPECT_SAYS(refusal(scratch("missing.nc").parent_path()), "is a folder");
+  std::ofstream(scratch("text.nc")) << "u,v\n1,2\n";
+  EXPECT_SAYS(refusal(scratch("text.nc")), "text.nc: is not a netCDF file");
+  std::ofstream(scratch("empty.nc")).close();
+  EXPECT_SAYS(refusal(scratch("empty.nc")), "is not a netCDF file");
+  EXPECT_SAYS(complaint([] { Registry<Current>::instance().make("netcdf", {}, "current.netcdf"); }),
+              "no file is named");
+}
+
+TEST(NetcdfCurrent, RefusesTruncatedFilesOfEveryFormat) {
+  for (const int format : {0, NC_64BIT_OFFSET, NC_NETCDF4}) {
+    const fs::path path = File{}.write("whole.nc", format);
+    EXPECT_NO_THROW(open(path));
+    const auto size = fs::file_size(path);
+    for (const auto kept : {size - 8, size / 2, std::uintmax_t{6}}) {
+      fs::copy_file(path, scratch("cut.nc"), fs::copy_options::overwrite_existing);
+      fs::resize_file(scratch("cut.nc"), kept);
+      EXPECT_NE(refusal(scratch("cut.nc")), "") << format << " " << kept;
+    }
+  }
+}
+
+// --- the report ------------------------------------------------------------------------------
+
+TEST(CurrentReport, SaysWhatWasUnderstood) {
+  File file = with_hole(NAN);
+  file.depth = {0, 10};
+  const std::string text = describe_current_file(file.write("report.nc"));
+  EXPECT_SAYS(text, "projected, 3 x 4 points");
+  EXPECT_SAYS(text, "x: 3 points from 0 to 200 m, step 100");
+  EXPECT_SAYS(text, "2014-12-01T00:00:00Z to 2014-12-01T00:20:00Z, standard calendar");
+  EXPECT_SAYS(text, "3 steps over 1200 s, step 600 s");
+  EXPECT_SAYS(text, "2 levels from 0 to 10 m");
+  EXPECT_SAYS(text, "8.3 % of 72 values");
+  EXPECT_SAYS(text, "1.414 to 1.414 m/s, mean velocity (1.000, 1.000) m/s");
+}
+
+TEST(CurrentReport, SaysHowVelocitiesArePacked) {
+  File file;
+  file.type = NC_SHORT;
+  file.scale = -1e-4;
+  file.offset = 0.5;
+  EXPECT_SAYS(describe_current_file(file.write("packed.nc")),
+              "u in m s-1, stored as int16 x -1e-04 + 0.5");
+}
+
+}  // namespace
+}  // namespace shoal::scenarios
