@@ -115,6 +115,23 @@ int main(int argc, char** argv) {
   claims_command->add_option("folder", folder, "what shoal sweep wrote")->required();
   claims_command->callback([&] { command = [&] { shoal::program::claims(folder); }; });
 
+  std::vector<std::string> parts;
+  CLI::App* merge_command = app.add_subcommand(
+      "merge", "Unite the trials of parts of a study (shoal sweep --shard) in one folder");
+  merge_command->add_option("folder", folder, "where to: a new folder, or one of the parts")
+      ->required();
+  merge_command->add_option("parts", parts, "folders that shoal sweep wrote")->required();
+  merge_command->callback([&] { command = [&] { shoal::program::merge(folder, parts); }; });
+  std::string export_to;
+  CLI::App* export_command = app.add_subcommand(
+      "export", "Write the trials of a study as trials.csv and study.nc, for other programs");
+  export_command->add_option("folder", folder, "what shoal sweep wrote")->required();
+  export_command
+      ->add_option("--out", export_to, "folder of the two files; default: that of the study")
+      ->check(names_a_folder);
+  export_command->callback(
+      [&] { command = [&] { shoal::program::export_study(folder, export_to); }; });
+
   CLI::App* worker_command = app.add_subcommand("trial-worker", "One trial for shoal sweep");
   worker_command->group("");  // not for people
   worker_command->callback([&] { command = [] { shoal::analysis::serve_as_worker(); }; });

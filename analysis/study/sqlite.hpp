@@ -28,6 +28,8 @@ class Statement {
 
   /// Whether there is a row. Throws SystemError.
   bool step();
+  /// Makes it ready to run again, with what is bound then.
+  void reset();
 
   std::string text(int i) const;
   bool null(int i) const;
