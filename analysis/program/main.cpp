@@ -138,7 +138,8 @@ int main(int argc, char** argv) {
 
   std::string family;
   CLI::App* list_command = app.add_subcommand("list", "List what there is");
-  list_command->add_option("family", family, "scenarios, behaviours, plans, currents, solvers ...");
+  list_command->add_option("family", family,
+                           "scenarios, studies, behaviours, plans, currents, solvers ...");
   list_command->callback([&] { command = [&] { shoal::program::list(family); }; });
 
   std::string name;
@@ -149,9 +150,10 @@ int main(int argc, char** argv) {
   describe_command->callback([&] { command = [&] { shoal::program::describe(name); }; });
 
   std::vector<std::string> files;
-  CLI::App* check_command =
-      app.add_subcommand("check", "Check scenarios and current files, and say what was understood");
-  check_command->add_option("files", files, "scenario (.toml), plan or start (.csv), current (.nc)")
+  CLI::App* check_command = app.add_subcommand(
+      "check", "Check scenarios, studies and other files, and say what was understood");
+  check_command
+      ->add_option("files", files, "scenario or study (.toml), plan or start (.csv), current (.nc)")
       ->required();
   check_command->callback([&] { command = [&] { shoal::program::check(files); }; });
 

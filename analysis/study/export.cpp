@@ -28,26 +28,39 @@ std::vector<std::string> in_declared_order(std::vector<std::string> names,
   return ordered;
 }
 
-/// The factors of all groups, in the order in which they first stand, with their units.
-std::vector<std::pair<std::string, std::string>> all_factors(const StudyPlan& plan) {
-  std::vector<std::pair<std::string, std::string>> factors;
-  for (const PlannedGroup& group : plan.groups()) {
-    for (std::size_t c = 0; c < group.columns().size(); ++c) {
-      const std::pair factor(group.columns()[c], group.units()[c]);
-      if (std::ranges::find(factors, factor) == factors.end()) factors.push_back(factor);
-    }
+std::vector<std::string> factor_columns(const PlannedGroup& group) {
+  std::vector<std::string> names;
+  for (std::size_t c = 0; c < group.columns().size(); ++c) {
+    names.push_back(name_with_unit(group.columns()[c], group.units()[c]));
   }
-  return factors;
+  return names;
 }
 
-std::string label_in(const PlannedGroup& group, std::size_t cell,
-                     const std::pair<std::string, std::string>& factor) {
-  for (std::size_t c = 0; c < group.columns().size(); ++c) {
-    if (group.columns()[c] != factor.first || group.units()[c] != factor.second) continue;
-    const std::string& label = group.labels(cell)[c];
-    return label == not_applied ? std::string() : label;
+/// Of all groups, in the order in which they first stand. Factors of several groups that are called
+/// alike share a column. Throws InputError if two of one group do, or one and something else.
+std::vector<std::string> all_factor_columns(const StudyPlan& plan,
+                                            const std::vector<std::string>& others) {
+  std::vector<std::string> columns;
+  for (const PlannedGroup& group : plan.groups()) {
+    std::set<std::string> taken(others.begin(), others.end());
+    for (const std::string& name : factor_columns(group)) {
+      if (!taken.insert(name).second) {
+        throw InputError(group.group().origin, "two columns of the trials would be called \"" +
+                                                   name + "\"; give a factor another name");
+      }
+      if (std::ranges::find(columns, name) == columns.end()) columns.push_back(name);
+    }
   }
-  return "";
+  return columns;
+}
+
+/// Empty where the group has no such factor, or where it does not apply.
+std::string label_in(const PlannedGroup& group, std::size_t cell, const std::string& column) {
+  const std::vector<std::string> columns = factor_columns(group);
+  const auto found = std::ranges::find(columns, column);
+  if (found == columns.end()) return "";
+  const std::string& label = group.labels(cell)[static_cast<std::size_t>(found - columns.begin())];
+  return label == not_applied ? std::string() : label;
 }
 
 const char* status_of(StudyResults::State state) {
@@ -74,16 +87,14 @@ StudyExport::StudyExport(const StudyPlan& plan, const Store& store)
 
 std::string StudyExport::csv() const {
   const StudyPlan& plan = results_.plan();
-  const auto factors = all_factors(plan);
+  const std::vector<std::string> fate{"replication", "seed", "status", "reason"};
+  std::vector<std::string> others{"study_group"};
+  others.insert(others.end(), fate.begin(), fate.end());
+  others.insert(others.end(), metrics_.begin(), metrics_.end());
+  const std::vector<std::string> factors = all_factor_columns(plan, others);
   std::vector<std::string> fields{"study_group"};
-  for (const auto& [name, unit] : factors) fields.push_back(name_with_unit(name, unit));
-  for (const char* name : {"replication", "seed", "status", "reason"}) fields.emplace_back(name);
-  fields.insert(fields.end(), metrics_.begin(), metrics_.end());
-  std::set<std::string> seen;
-  for (const std::string& name : fields) {
-    if (seen.insert(name).second) continue;
-    throw InputError("two columns of the trials would be called \"" + name +
-                     "\"; give one of the factors another name");
+  for (const auto* names : {&factors, &fate, &metrics_}) {
+    fields.insert(fields.end(), names->begin(), names->end());
   }
 
   std::string text = csv_line(fields);
@@ -91,7 +102,9 @@ std::string StudyExport::csv() const {
     const PlannedTrial& trial = plan.trial(i);
     const PlannedGroup& group = plan.groups()[trial.group];
     fields = {group.name()};
-    for (const auto& factor : factors) fields.push_back(label_in(group, trial.cell, factor));
+    for (const std::string& column : factors) {
+      fields.push_back(label_in(group, trial.cell, column));
+    }
     fields.push_back(std::to_string(trial.replication + 1));
     fields.push_back(std::to_string(plan.seed(trial)));
     fields.emplace_back(status_of(results_.state(i)));

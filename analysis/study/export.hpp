@@ -19,7 +19,7 @@ class StudyExport {
   /// One row a trial, in the order of the plan, those that have not run among them: group, factors,
   /// replication (from 1), seed, status (`done`, `failed`, `missing`), reason, and every metric.
   /// Names end with their units. A factor that a group lacks, or that does not apply, and a metric
-  /// without a value are empty. Throws InputError if two factors would head one column.
+  /// without a value are empty. Throws InputError if two things would head one column.
   std::string csv() const;
 
   /// A netCDF-4 file of CF-1.8 attributes with a netCDF group for each named group of the study.

@@ -125,6 +125,10 @@ void Group::declare(Options<Group>& o) {
 }
 
 std::optional<std::string> Group::complaint() const {
+  // A study that asks for no tables has one of each group, called like it.
+  if (!name.empty()) {
+    if (auto wrong = name_complaint(name, "a group")) return wrong;
+  }
   const bool moves = std::ranges::any_of(factors, [](const Factor& factor) {
     return factor.key == "scenario" ||
            std::ranges::all_of(factor.levels, [](const Level& l) { return !l.scenario.empty(); });
@@ -253,6 +257,14 @@ Study read_study(const Setting& root) {
   require_names(study.sensitivities, names);
   require_known_quantities(study);
   return study;
+}
+
+bool looks_like_a_study(const Setting& root) {
+  const Schema& study = schema_of<Study>();
+  return std::ranges::any_of(root.table(), [&](const auto& entry) {
+    return study.find(entry.first) != nullptr ||
+           std::ranges::find(of_a_group, entry.first) != of_a_group.end();
+  });
 }
 
 std::vector<std::string> library_studies() {

@@ -12,60 +12,12 @@ import sys
 import time
 
 import desk
-from desk import Desk
+from study_desk import STUDY, TRIALS, StudyDesk
 
 KILLS = 4
 
-STUDY = """title = "two behaviours"
-scenario = "construction_square"
-replications = 3
-set = { trial.duration_s = 300 }
 
-[[factor]]
-name = "behaviour"
-key = "behaviour.kind"
-values = ["rigid_registration", "assignment_registration"]
-
-[[factor]]
-key = "behaviour.assignment_registration.delta_theta_deg"
-values = [10, 45]
-only = { behaviour = "assignment_registration" }
-
-[[table]]
-name = "energy"
-rows = ["behaviour", "delta_theta_deg"]
-metrics = ["energy_mean_wh", "quality_final_m"]
-
-[[table]]
-name = "against_time"
-columns = ["behaviour"]
-pool = ["delta_theta_deg"]
-series = ["quality"]
-every = 60
-"""
-TRIALS = 9  # rigid registration has no delta theta to vary
-
-
-class Sweep(Desk):
-    def setUp(self):
-        super().setUp()
-        self.write("study.toml", STUDY)
-
-    def sweep(self, *arguments, study="study.toml", out="out"):
-        done = self.shoal("sweep", study, "--out", out, *arguments)
-        self.assertEqual(done.returncode, 0, done.stderr)
-        return done.stdout
-
-    def tables(self, out="out"):
-        return {f.name: f.read_bytes() for f in (self.desk / out / "tables").iterdir()}
-
-    def rows(self, columns, out="out"):
-        store = sqlite3.connect(self.desk / out / "trials.sqlite")
-        try:
-            return store.execute(f"SELECT {columns} FROM trial ORDER BY trial_key").fetchall()
-        finally:
-            store.close()
-
+class Sweep(StudyDesk):
     def test_the_tables_do_not_depend_on_the_number_of_jobs(self):
         self.assertIn(f"{TRIALS} of {TRIALS} trials are stored", self.sweep("--jobs", 1, out="one"))
         self.sweep("--jobs", 3, out="three")
@@ -168,6 +120,8 @@ values = [0, 1000000]
                 ("a row", 'rows = ["behavior"', 'rows = ["behaviour"', ['"behavior"', "did you mean"]),
                 ("a factor left out", 'rows = ["behaviour"]', 'rows = ["behaviour", "delta_theta_deg"]',
                  ["delta_theta_deg has several levels", "pool"]),
+                ("the name of a group", '[[group]]\nname = "a/b"\nscenario = "x"\n',
+                 STUDY, ['the name "a/b" becomes that of a file']),
                 ("a base", "construction_squre", "construction_square", ["did you mean"])]:
             with self.subTest(what):
                 self.write("bad.toml", STUDY.replace(right, wrong))
