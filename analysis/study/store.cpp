@@ -154,7 +154,8 @@ void Store::Database::put(const StoredTrial& trial) {
   for (const auto& [name, label] : trial.factors) factor_names.push_back(name);
   for (const auto& [name, value] : trial.metrics) metric_names.push_back(name);
   add_columns("factor", factors, factor_names, "TEXT");
-  add_columns("metric", metrics, metric_names, "REAL");
+  // Without a type: a column of type REAL takes the sign from a zero.
+  add_columns("metric", metrics, metric_names, "");
 
   std::string columns =
       "trial_key, trial_id, scenario_id, study_group, replication, seed, program, status, reason, "

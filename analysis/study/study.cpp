@@ -20,7 +20,10 @@ constexpr std::array<std::string_view, 4> of_a_group{"scenario", "factor", "excl
 Setting with_groups(Setting root) {
   const Setting* grouped = root.find("group");
   Setting group;
-  group.origin = root.origin;
+  // The file as a whole has no line. That of the base stands for the group: it says beside which
+  // file the base is.
+  const Setting* base = root.find("scenario");
+  group.origin = base ? base->origin : root.origin;
   Setting::Table rest;
   for (auto& [name, entry] : root.table()) {
     if (std::ranges::find(of_a_group, name) == of_a_group.end()) {
@@ -32,7 +35,8 @@ Setting with_groups(Setting root) {
     }
   }
   if (!grouped) {
-    rest.emplace_back("group", Setting{Setting::List{std::move(group)}, root.origin});
+    const Origin origin = group.origin;
+    rest.emplace_back("group", Setting{Setting::List{std::move(group)}, origin});
   }
   root.value = std::move(rest);
   return root;

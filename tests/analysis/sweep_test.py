@@ -112,6 +112,14 @@ values = [0, 1000000]
             running.kill()
         self.assert_complains(refused, 1, ["out is in use by another shoal"])
 
+    def test_a_scenario_beside_the_study_is_found_from_everywhere(self):
+        for text in [STUDY.replace('"construction_square"', '"sea.toml"').replace("300", "60"),
+                     'replications = 2\n[[group]]\nname = "g"\nscenario = "sea.toml"\n']:
+            self.write("below/study.toml", text)
+            self.write("below/sea.toml", "[trial]\nduration_s = 60\n")
+            self.sweep("--rerun-changed", study="below/study.toml")
+            self.assertIn(" 0 of them run now", self.sweep(study="out/study.toml"))
+
     def test_bad_studies_are_refused_before_anything_runs(self):
         for what, wrong, right, parts in [
                 ("a key", "delta_thta", "delta_theta", ['no option "delta_thta_deg"', "did you mean"]),
