@@ -62,7 +62,7 @@ class RandomSums {
     for (std::uint32_t draw = 0; begin < size_; ++draw) {
       for (const double u : random.uniform(Purpose::sign_flip, number, draw)) {
         const std::size_t end = std::min(begin + bits, size_);
-        auto signs = static_cast<std::uint64_t>(std::ldexp(u, bits));
+        auto signs = static_cast<std::uint64_t>(u * 0x1p53);
         for (; begin < end; begin += std::min(at_once, end - begin)) {
           sum += sums[signs & (patterns - 1)];
           sums += patterns;

@@ -60,6 +60,7 @@ bool Statement::step() {
 
 void Statement::reset() {
   sqlite3_reset(statement_);
+  sqlite3_clear_bindings(statement_);
 }
 
 std::string Statement::text(int i) const {
@@ -89,6 +90,16 @@ std::vector<double> Statement::numbers(int i) const {
                 numbers.size() * sizeof(double));
   }
   return numbers;
+}
+
+Statement& KeptStatement::ready(sqlite3* connection, const std::string& sql) {
+  if (statement_ && sql_ == sql) {
+    statement_->reset();
+  } else {
+    statement_ = std::make_unique<Statement>(connection, sql);
+    sql_ = sql;
+  }
+  return *statement_;
 }
 
 Transaction::Transaction(sqlite3* connection) : connection_(connection) {

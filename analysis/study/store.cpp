@@ -19,8 +19,8 @@ namespace fs = std::filesystem;
 constexpr const char* schema = R"(
   CREATE TABLE trial (
     trial_key TEXT PRIMARY KEY, trial_id TEXT NOT NULL, scenario_id TEXT NOT NULL,
-    study_group TEXT NOT NULL, replication INTEGER NOT NULL, seed INTEGER NOT NULL, program TEXT NOT NULL,
-    status TEXT NOT NULL, reason TEXT, wall_s REAL NOT NULL) WITHOUT ROWID;
+    study_group TEXT NOT NULL, replication INTEGER NOT NULL, seed INTEGER NOT NULL,
+    program TEXT NOT NULL, status TEXT NOT NULL, reason TEXT, wall_s REAL NOT NULL) WITHOUT ROWID;
   CREATE TABLE series (
     trial_key TEXT NOT NULL, name TEXT NOT NULL, unit TEXT NOT NULL, meaning TEXT NOT NULL,
     time_s BLOB NOT NULL, numbers BLOB NOT NULL, PRIMARY KEY (trial_key, name)) WITHOUT ROWID;
@@ -44,7 +44,15 @@ struct Store::Database {
   fs::path file;
   std::vector<std::string> factors, metrics;
 
-  ~Database() { sqlite3_close(connection); }
+  KeptStatement insert, forget, add_series;
+
+  ~Database() {
+    forget_statements();  // SQLite closes nothing while there are any
+    sqlite3_close(connection);
+  }
+  void forget_statements() {
+    for (KeptStatement* statement : {&insert, &forget, &add_series}) statement->drop();
+  }
 
   [[noreturn]] void fail(const std::string& doing) const {
     throw SystemError("cannot " + doing + " " + file.string() + ": " + sqlite3_errmsg(connection) +
@@ -91,10 +99,10 @@ void Store::Database::add_columns(const std::string& list, std::vector<std::stri
     if (std::ranges::find(known, name) != known.end()) continue;
     run("ALTER TABLE trial ADD COLUMN " + (list == "factor" ? factor_column(name) : quoted(name)) +
         " " + type);
-    Statement insert(connection, "INSERT INTO " + list + " VALUES (?, ?)");
-    insert.bind(1, name);
-    insert.bind(2, static_cast<std::int64_t>(known.size()));
-    insert.step();
+    Statement entry(connection, "INSERT INTO " + list + " VALUES (?, ?)");
+    entry.bind(1, name);
+    entry.bind(2, static_cast<std::int64_t>(known.size()));
+    entry.step();
     known.push_back(name);
   }
 }
@@ -141,6 +149,7 @@ Store::Store(const fs::path& folder, Access access) : database_(std::make_unique
 Store::~Store() {
   // A store at rest is one file, which may also be read where nothing can be written. A reader
   // cannot change that, and need not.
+  if (database_) database_->forget_statements();
   if (database_ && !sqlite3_db_readonly(database_->connection, "main")) {
     sqlite3_exec(database_->connection, "PRAGMA journal_mode=DELETE", nullptr, nullptr, nullptr);
   }
@@ -164,34 +173,34 @@ void Store::Database::put(const StoredTrial& trial) {
   for (const std::string& name : factor_names)
     columns += ", " + factor_column(name), places += ", ?";
   for (const std::string& name : metric_names) columns += ", " + quoted(name), places += ", ?";
-  Statement insert(connection,
-                   "INSERT OR REPLACE INTO trial (" + columns + ") VALUES (" + places + ")");
-  insert.bind(1, trial.key);
-  insert.bind(2, trial.id);
-  insert.bind(3, trial.scenario);
-  insert.bind(4, trial.group);
-  insert.bind(5, static_cast<std::int64_t>(trial.replication));
-  insert.bind(6, trial.seed);
-  insert.bind(7, trial.program);
-  insert.bind(8, std::string(trial.failed() ? "failed" : "done"));
-  insert.bind(9, trial.failure);
-  insert.bind(10, std::optional(trial.wall_s));
+  Statement& row = insert.ready(
+      connection, "INSERT OR REPLACE INTO trial (" + columns + ") VALUES (" + places + ")");
+  row.bind(1, trial.key);
+  row.bind(2, trial.id);
+  row.bind(3, trial.scenario);
+  row.bind(4, trial.group);
+  row.bind(5, static_cast<std::int64_t>(trial.replication));
+  row.bind(6, trial.seed);
+  row.bind(7, trial.program);
+  row.bind(8, std::string(trial.failed() ? "failed" : "done"));
+  row.bind(9, trial.failure);
+  row.bind(10, std::optional(trial.wall_s));
   int place = 11;
-  for (const auto& [name, label] : trial.factors) insert.bind(place++, label);
+  for (const auto& [name, label] : trial.factors) row.bind(place++, label);
   for (const auto& [name, value] : trial.metrics) {
     if (value && std::isnan(*value)) {
       throw std::logic_error("the metric " + name + " of " + trial.key +
                              " is NaN; what has no value is null");
     }
-    insert.bind(place++, value);
+    row.bind(place++, value);
   }
-  insert.step();
+  row.step();
 
-  Statement forget(connection, "DELETE FROM series WHERE trial_key = ?");
-  forget.bind(1, trial.key);
-  forget.step();
+  Statement& old = forget.ready(connection, "DELETE FROM series WHERE trial_key = ?");
+  old.bind(1, trial.key);
+  old.step();
   for (const scenarios::Series& series : trial.series) {
-    Statement add(connection, "INSERT INTO series VALUES (?, ?, ?, ?, ?, ?)");
+    Statement& add = add_series.ready(connection, "INSERT INTO series VALUES (?, ?, ?, ?, ?, ?)");
     add.bind(1, trial.key);
     add.bind(2, series.name);
     add.bind(3, series.unit);
