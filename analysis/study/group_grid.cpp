@@ -6,7 +6,8 @@ namespace shoal::analysis {
 
 GroupGrid::GroupGrid(const PlannedGroup& group) : group_(group) {
   if (group.sampled()) {
-    Dimension& cells = dimensions_.emplace_back("cell", std::vector<std::string>{});
+    dimensions_.push_back({"cell", {}});
+    Dimension& cells = dimensions_.back();
     for (std::size_t cell = 0; cell < group.cells(); ++cell) {
       cells.labels.push_back(group.labels(cell).front());
     }
@@ -14,7 +15,8 @@ GroupGrid::GroupGrid(const PlannedGroup& group) : group_(group) {
   }
   for (std::size_t f = 0; f < group.axes().size(); ++f) {
     const Axis& axis = group.axes()[f];
-    Dimension& levels = dimensions_.emplace_back(axis.name(), std::vector<std::string>{});
+    dimensions_.push_back({axis.name(), {}});
+    Dimension& levels = dimensions_.back();
     for (std::size_t i = 0; i < static_cast<std::size_t>(axis.levels()); ++i) {
       levels.labels.push_back(axis.level(i).label);
     }
