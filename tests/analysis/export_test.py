@@ -7,7 +7,7 @@ import csv
 import math
 
 import desk
-from study_desk import STUDY, StudyDesk
+from study_desk import SHORT, STUDY, StudyDesk
 
 try:
     import netCDF4
@@ -15,8 +15,6 @@ try:
 except ImportError as missing:
     xarray = None
     WHY = f"skipped: {missing}; apt-get install python3-xarray python3-netcdf4"
-
-SHORT = STUDY.replace("= 300", "= 90")
 
 GROUPS = """title = "a grid with gaps, and drawn cells"
 replications = 2

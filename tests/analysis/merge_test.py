@@ -11,10 +11,7 @@ import subprocess
 import time
 
 import desk
-from study_desk import STUDY, TRIALS, StudyDesk
-
-
-SHORT = STUDY.replace("= 300", "= 90")
+from study_desk import SHORT, STUDY, TRIALS, StudyDesk
 
 
 class Merge(StudyDesk):

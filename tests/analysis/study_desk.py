@@ -31,6 +31,7 @@ pool = ["delta_theta_deg"]
 series = ["quality"]
 every = 60
 """
+SHORT = STUDY.replace("= 300", "= 90")  # where it matters only that trials were run
 TRIALS = 9  # rigid registration has no delta theta to vary
 
 

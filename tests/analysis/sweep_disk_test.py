@@ -9,7 +9,7 @@ import sqlite3
 import subprocess
 
 import desk
-from study_desk import STUDY, TRIALS, StudyDesk
+from study_desk import SHORT, TRIALS, StudyDesk
 
 NOBODY = 65534
 
@@ -20,6 +20,10 @@ def at_most(size):
 
 
 class FullDisk(StudyDesk):
+    def setUp(self):
+        super().setUp()
+        self.write("study.toml", SHORT)
+
     def stored(self, out):
         try:
             return len(self.rows("trial_key", out))
