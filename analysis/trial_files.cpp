@@ -1,5 +1,6 @@
 #include <nlohmann/json.hpp>
 
+#include "shoal/analysis/cf_unit.hpp"
 #include "shoal/analysis/trial.hpp"
 #include "shoal/core/whole_file.hpp"
 
@@ -10,15 +11,6 @@ namespace fs = std::filesystem;
 
 void write_text(const fs::path& file, const std::string& text) {
   write_whole_file(file, text);
-}
-
-/// Units as UDUNITS, and so CF, spells them.
-std::string cf_unit(const std::string& unit) {
-  if (unit.empty()) return "1";
-  if (unit == "deg") return "degree";
-  if (unit == "Wh") return "W h";
-  if (unit == "m/Wh") return "m W-1 h-1";
-  return unit;
 }
 
 std::vector<scenarios::Series> in_cf_units(std::vector<scenarios::Series> series) {

@@ -1,10 +1,15 @@
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <filesystem>
 
 #include "commands.hpp"
+#include "shoal/analysis/study/cell_scenarios.hpp"
+#include "shoal/analysis/study/study_tables.hpp"
+#include "shoal/core/text.hpp"
 #include "shoal/formations/csv_table.hpp"
 #include "shoal/scenarios/currents/netcdf_report.hpp"
+#include "shoal/scenarios/library_path.hpp"
 #include "shoal/scenarios/scenario.hpp"
 #include "shoal/scenarios/toml_file.hpp"
 #include "shoal/scenarios/world.hpp"
@@ -20,6 +25,51 @@ void check_scenario(const fs::path& file) {
   fmt::print("{}: a scenario of {} vehicles, {}, plan {}, current {}, {:g} s\n", file.string(),
              world.size(), scenario.behaviour.kind(), scenario.plan.kind(), scenario.current.kind(),
              scenario.trial.duration_s);
+}
+
+/// Everything that a sweep would refuse before its trials, and the world of a cell of each group.
+void check_study(const fs::path& file) {
+  const analysis::StudyPlan plan(analysis::read_study(scenarios::read_toml(file)));
+  const std::size_t tables = analysis::require_answerable(plan);
+  analysis::CellScenarios scenarios(plan);
+  for (std::size_t g = 0; g < plan.groups().size(); ++g) {
+    for (std::size_t cell = plan.groups()[g].cells(); cell-- > 0;) {
+      const scenarios::Scenario scenario = scenarios.of(g, cell).scenario;
+      if (cell == 0) const scenarios::World world(scenario);
+    }
+  }
+  std::size_t cells = 0;
+  for (const analysis::PlannedGroup& group : plan.groups()) cells += group.cells();
+  fmt::print("{}: a study of {} trials in {} cells; tables: {}, claims: {}\n", file.string(),
+             plan.trials(), cells, tables, plan.study().claims.size());
+  for (const analysis::PlannedGroup& group : plan.groups()) {
+    std::string factors;
+    for (const analysis::Axis& axis : group.axes()) {
+      factors += (factors.empty() ? "" : " x ") + axis.name();
+      if (axis.levels() > 0) factors += fmt::format(" ({})", axis.levels());
+    }
+    const std::string name = group.name().empty() ? group.group().scenario : group.name();
+    fmt::print("  {:<20} {:>6} cells x {:>3} replications, {}{}{}\n", name, group.cells(),
+               group.replications(), group.group().design.kind(), factors.empty() ? "" : ": ",
+               factors);
+  }
+}
+
+void check_toml(const fs::path& file) {
+  const bool study = analysis::looks_like_a_study(scenarios::read_toml(file));
+  study ? check_study(file) : check_scenario(file);
+}
+
+/// A file, or the scenario or study of that name that ships.
+fs::path named(const std::string& name) {
+  if (fs::exists(name)) return name;
+  std::vector<std::string> known = scenarios::library_scenarios();
+  const std::vector<std::string> studies = analysis::library_studies();
+  if (std::ranges::find(known, name) != known.end()) return scenarios::find_scenario(name);
+  if (std::ranges::find(studies, name) != studies.end()) return analysis::find_study(name);
+  known.insert(known.end(), studies.begin(), studies.end());
+  throw InputError("there is no file \"" + name +
+                   "\", and no scenario or study of that name ships" + suggestion(name, known));
 }
 
 void check_csv(const fs::path& file) {
@@ -41,7 +91,7 @@ void check(const std::vector<std::string>& files) {
   for (const std::string& name : files) {
     const std::string extension = fs::path(name).extension();
     if (extension == ".toml" || (extension.empty() && !fs::exists(name))) {
-      check_scenario(scenarios::find_scenario(name));
+      check_toml(named(name));
     } else if (extension == ".csv") {
       check_csv(name);
     } else if (extension == ".nc") {

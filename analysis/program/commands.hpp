@@ -48,6 +48,8 @@ void check(const std::vector<std::string>& files);
 void corpus(const CorpusArguments& arguments);
 void solve(const SolveArguments& arguments);
 void sweep(const SweepArguments& arguments);
+void merge(const std::string& folder, const std::vector<std::string>& others);
+void export_study(const std::string& folder, const std::string& out);
 void tables(const std::string& folder, bool summary);
 void claims(const std::string& folder);
 

@@ -2,9 +2,11 @@
 
 #include "commands.hpp"
 #include "shoal/analysis/measure.hpp"
+#include "shoal/analysis/study/study.hpp"
 #include "shoal/core/registry.hpp"
 #include "shoal/core/text.hpp"
 #include "shoal/scenarios/library_path.hpp"
+#include "shoal/scenarios/toml_file.hpp"
 
 namespace shoal::program {
 namespace {
@@ -40,8 +42,17 @@ void list_family(const RegistryBase& family) {
   }
 }
 
-/// `solvers`, `losses`: what one also calls the family of a solver, of a loss.
+void list_studies() {
+  fmt::print("study: trials of a scenario with what is varied, its tables and claims\n");
+  for (const std::string& name : analysis::library_studies()) {
+    const Setting root = scenarios::read_toml(analysis::find_study(name));
+    fmt::print("  {:<26} {}\n", name, analysis::read_study(root).title);
+  }
+}
+
+/// `solvers`, `losses`, `studies`: what one also calls the family of a solver, of a loss.
 std::string plural(const std::string& family) {
+  if (family.ends_with('y')) return family.substr(0, family.size() - 1) + "ies";
   return family + (family.ends_with('s') ? "es" : "s");
 }
 
@@ -62,6 +73,7 @@ void list(const std::string& wanted) {
     measures ? list_measures(*family) : list_family(*family);
   }
   if (asked_for("scenario")) list_scenarios();
+  if (asked_for("study")) list_studies();
   if (!found) throw InputError("there is no family \"" + wanted + '"' + suggestion(wanted, known));
 }
 

@@ -115,13 +115,31 @@ int main(int argc, char** argv) {
   claims_command->add_option("folder", folder, "what shoal sweep wrote")->required();
   claims_command->callback([&] { command = [&] { shoal::program::claims(folder); }; });
 
+  std::vector<std::string> parts;
+  CLI::App* merge_command = app.add_subcommand(
+      "merge", "Unite the trials of parts of a study (shoal sweep --shard) in one folder");
+  merge_command->add_option("folder", folder, "where to: a new folder, or one of the parts")
+      ->required();
+  merge_command->add_option("parts", parts, "folders that shoal sweep wrote")->required();
+  merge_command->callback([&] { command = [&] { shoal::program::merge(folder, parts); }; });
+  std::string export_to;
+  CLI::App* export_command = app.add_subcommand(
+      "export", "Write the trials of a study as trials.csv and study.nc, for other programs");
+  export_command->add_option("folder", folder, "what shoal sweep wrote")->required();
+  export_command
+      ->add_option("--out", export_to, "folder of the two files; default: that of the study")
+      ->check(names_a_folder);
+  export_command->callback(
+      [&] { command = [&] { shoal::program::export_study(folder, export_to); }; });
+
   CLI::App* worker_command = app.add_subcommand("trial-worker", "One trial for shoal sweep");
   worker_command->group("");  // not for people
   worker_command->callback([&] { command = [] { shoal::analysis::serve_as_worker(); }; });
 
   std::string family;
   CLI::App* list_command = app.add_subcommand("list", "List what there is");
-  list_command->add_option("family", family, "scenarios, behaviours, plans, currents, solvers ...");
+  list_command->add_option("family", family,
+                           "scenarios, studies, behaviours, plans, currents, solvers ...");
   list_command->callback([&] { command = [&] { shoal::program::list(family); }; });
 
   std::string name;
@@ -132,9 +150,10 @@ int main(int argc, char** argv) {
   describe_command->callback([&] { command = [&] { shoal::program::describe(name); }; });
 
   std::vector<std::string> files;
-  CLI::App* check_command =
-      app.add_subcommand("check", "Check scenarios and current files, and say what was understood");
-  check_command->add_option("files", files, "scenario (.toml), plan or start (.csv), current (.nc)")
+  CLI::App* check_command = app.add_subcommand(
+      "check", "Check scenarios, studies and other files, and say what was understood");
+  check_command
+      ->add_option("files", files, "scenario or study (.toml), plan or start (.csv), current (.nc)")
       ->required();
   check_command->callback([&] { command = [&] { shoal::program::check(files); }; });
 

@@ -5,7 +5,6 @@
 #include <filesystem>
 
 #include "commands.hpp"
-#include "shoal/analysis/study/study_files.hpp"
 #include "shoal/analysis/study/study_tables.hpp"
 #include "shoal/analysis/study/sweep.hpp"
 #include "shoal/core/text.hpp"

@@ -4,8 +4,8 @@
 #include <map>
 
 #include "commands.hpp"
+#include "shoal/analysis/study/study_files.hpp"
 #include "shoal/analysis/study/study_tables.hpp"
-#include "shoal/analysis/study/sweep.hpp"
 
 namespace shoal::program {
 namespace {

@@ -42,21 +42,56 @@ double share_at_least(double limit, Sample terms) {
   return std::ldexp(static_cast<double>(patterns), -static_cast<int>(terms.size()));
 }
 
-/// The sum under the pattern of that number.
-double random_sum(Sample terms, const RandomStreams& random, std::uint32_t number) {
-  constexpr std::size_t bits = 53;  // in one uniform number
-  double sum = 0.0;
-  for (std::size_t begin = 0; begin < terms.size(); begin += 2 * bits) {
-    std::size_t i = begin;
-    for (const double u : random.uniform(Purpose::sign_flip, number, begin / (2 * bits))) {
-      auto signs = static_cast<std::uint64_t>(std::ldexp(u, bits));
-      for (std::size_t end = std::min(i + bits, terms.size()); i < end; ++i, signs >>= 1) {
-        sum += (signs & 1) != 0 ? terms[i] : -terms[i];
+/// The sums of terms under random patterns of signs.
+class RandomSums {
+ public:
+  explicit RandomSums(Sample terms) : size_(terms.size()) {
+    for (std::size_t begin = 0; begin < size_; begin += bits) {
+      const std::size_t end = std::min(begin + bits, size_);
+      for (std::size_t i = begin; i < end; i += at_once) {
+        add_sums(terms.subspan(i, std::min(at_once, end - i)));
       }
     }
   }
-  return sum;
-}
+
+  /// Under the pattern of that number.
+  double sum(const RandomStreams& random, std::uint32_t number) const {
+    double sum = 0.0;
+    const double* sums = sums_.data();
+    std::size_t begin = 0;
+    for (std::uint32_t draw = 0; begin < size_; ++draw) {
+      for (const double u : random.uniform(Purpose::sign_flip, number, draw)) {
+        const std::size_t end = std::min(begin + bits, size_);
+        auto signs = static_cast<std::uint64_t>(u * 0x1p53);
+        for (; begin < end; begin += std::min(at_once, end - begin)) {
+          sum += sums[signs & (patterns - 1)];
+          sums += patterns;
+          signs >>= at_once;
+        }
+      }
+    }
+    return sum;
+  }
+
+ private:
+  static constexpr std::size_t bits = 53;    // in one uniform number
+  static constexpr std::size_t at_once = 8;  // so many signs tell which sum to take
+  static constexpr std::size_t patterns = 1 << at_once;
+
+  /// Under all patterns of their signs; a term that is not there has none.
+  void add_sums(Sample terms) {
+    for (std::size_t pattern = 0; pattern < patterns; ++pattern) {
+      double sum = 0.0;
+      for (std::size_t i = 0; i < terms.size(); ++i) {
+        sum += ((pattern >> i) & 1) != 0 ? terms[i] : -terms[i];
+      }
+      sums_.push_back(sum);
+    }
+  }
+
+  std::size_t size_;
+  std::vector<double> sums_;
+};
 
 }  // namespace
 
@@ -84,9 +119,10 @@ std::optional<TestResult> sign_flip_test(Sample differences, Alternative alterna
     result.p_value = (two_sided ? 2.0 : 1.0) * share_at_least(outward - tie, differences);
   } else {
     const RandomStreams random(options.seed);
+    const RandomSums sums(differences);
     int as_far_out = 0;
     for (int number = 0; number < options.resamples; ++number) {
-      const double sum = random_sum(differences, random, static_cast<std::uint32_t>(number));
+      const double sum = sums.sum(random, static_cast<std::uint32_t>(number));
       if ((two_sided ? std::abs(sum) : sum) >= outward - tie) ++as_far_out;
     }
     result.p_value = (as_far_out + 1.0) / (options.resamples + 1.0);

@@ -11,6 +11,24 @@
 #include "shoal/core/text.hpp"
 
 namespace shoal::analysis {
+namespace {
+
+/// `m_per_wh` of `m/Wh`, with another word for the stroke.
+std::string unit_in_names(const std::string& unit, const std::string& per = "_per_") {
+  std::string text;
+  for (const char c : unit) {
+    if (c == '/') {
+      text += per;
+    } else if (c == '%') {
+      text += "percent";
+    } else {
+      text += c == ' ' ? '_' : static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+    }
+  }
+  return text;
+}
+
+}  // namespace
 
 std::string note_on(Statistic statistic) {
   switch (statistic) {
@@ -74,14 +92,17 @@ Cell cell_of(const std::vector<double>& values, int failed, Statistic statistic)
 }
 
 std::string heading_of(const Quantity& quantity) {
-  std::string unit;
-  for (const char c : quantity.unit) {
-    unit += c == '/' ? std::string("_per_") : std::string(1, static_cast<char>(std::tolower(c)));
-  }
+  const std::string ending = "_" + unit_in_names(quantity.unit);
   std::string name = quantity.name;
-  if (!unit.empty() && name.ends_with("_" + unit)) name.resize(name.size() - unit.size() - 1);
+  if (ending.size() > 1 && name.ends_with(ending)) name.resize(name.size() - ending.size());
   std::ranges::replace(name, '_', ' ');
   return name;
+}
+
+std::string name_with_unit(const std::string& name, const std::string& unit) {
+  if (unit.empty() || name.ends_with("_" + unit_in_names(unit, "_"))) return name;
+  const std::string ending = "_" + unit_in_names(unit);
+  return name.ends_with(ending) ? name : name + ending;
 }
 
 std::vector<Cell> label_cells(const std::vector<std::string>& labels) {

@@ -18,6 +18,9 @@ std::string note_on(Statistic statistic);
 /// `energy mean` of energy_mean_wh: a name without its unit, as words.
 std::string heading_of(const Quantity& quantity);
 
+/// `period_s` of a period in seconds: a name that ends with its unit.
+std::string name_with_unit(const std::string& name, const std::string& unit);
+
 /// A label as a number where all labels of the dimension are numbers, or as a text.
 std::vector<Cell> label_cells(const std::vector<std::string>& labels);
 

@@ -89,6 +89,7 @@ Axis::Axis(const Factor& factor)
                                           (place.option->choice ? ", or " + key_ + ".kind" : ""));
     }
     if (!place.is_kind) unit_ = place.option->unit;
+    meaning_ = place.option->meaning;
     if (std::holds_alternative<Setting::List>(factor.values.value)) {
       take_values(factor);
     } else if (place.is_kind) {

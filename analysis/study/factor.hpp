@@ -56,6 +56,8 @@ class Axis {
 
   const std::string& name() const { return name_; }
   const std::string& unit() const { return unit_; }
+  /// What its option means; "" for levels that change several.
+  const std::string& meaning() const { return meaning_; }
   /// 0 for a continuous axis.
   int levels() const { return static_cast<int>(places_.size()); }
   const Place& level(std::size_t i) const { return places_[i]; }
@@ -68,7 +70,7 @@ class Axis {
   double value_at(double u) const;
   Place place_of(Setting value) const;
 
-  std::string name_, key_, unit_;
+  std::string name_, key_, unit_, meaning_;
   Origin origin_;
   std::vector<Place> places_;
   double low_ = 0.0, high_ = 0.0;

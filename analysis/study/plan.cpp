@@ -4,15 +4,25 @@
 #include <array>
 #include <set>
 
+#include "shoal/analysis/measure.hpp"
 #include "shoal/core/text.hpp"
 
 namespace shoal::analysis {
 namespace {
 
-// Columns that every stored trial has; a factor of that name would hide them.
-constexpr std::array<std::string_view, 11> reserved{
-    "study_group", "replication", "seed",   "status", "reason",     "trial_id",
-    "program",     "wall_s",      "metric", "time_s", sample_column};
+// What else is told of trials, in stores, tables and exported files.
+constexpr std::array<std::string_view, 14> reserved{
+    "study_group", "replication", "seed",   "status", "reason",      "trial_id", "scenario_id",
+    "program",     "wall_s",      "metric", "time_s", sample_column, "time",     "cell"};
+
+/// Whether every trial has a column of that name, which a factor would hide.
+bool is_taken(const std::string& name) {
+  const auto has = [&](const std::vector<Quantity>& quantities) {
+    return std::ranges::find(quantities, name, &Quantity::name) != quantities.end();
+  };
+  return std::ranges::find(reserved, name) != reserved.end() || has(known_values()) ||
+         has(known_series());
+}
 
 std::vector<CellSelection> exclusions(const Group& group) {
   std::vector<CellSelection> all;
@@ -35,7 +45,7 @@ PlannedGroup::PlannedGroup(const Group& group, std::int64_t replications)
     axes_.emplace_back(factor);
     only_.emplace_back(factor.only);
     const std::string& name = axes_.back().name();
-    if (std::ranges::find(reserved, name) != reserved.end()) {
+    if (is_taken(name)) {
       throw InputError(factor.origin, "a factor cannot be called \"" + name +
                                           "\", as every stored trial has a column of that name; "
                                           "give it another name");
@@ -134,6 +144,15 @@ StudyPlan::StudyPlan(const Study& study) : study_(study) {
 std::size_t StudyPlan::index(std::size_t group, std::size_t cell, int replication) const {
   return first_trial_[group] + cell * static_cast<std::size_t>(groups_[group].replications()) +
          static_cast<std::size_t>(replication);
+}
+
+std::vector<std::size_t> StudyPlan::part(int shard, int shards) const {
+  std::vector<std::size_t> places;
+  for (auto i = static_cast<std::size_t>(shard - 1); i < trials_.size();
+       i += static_cast<std::size_t>(shards)) {
+    places.push_back(i);
+  }
+  return places;
 }
 
 std::string StudyPlan::title(const PlannedTrial& trial) const {

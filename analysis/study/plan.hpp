@@ -81,6 +81,10 @@ class StudyPlan {
   std::size_t index(std::size_t group, std::size_t cell, int replication) const;
   std::int64_t seed(const PlannedTrial& trial) const { return study_.seed + trial.replication; }
 
+  /// Places of the trials that belong to the `shard`-th (from 1) of so many parts. The parts are
+  /// disjoint, together they are all, and none has two more than another.
+  std::vector<std::size_t> part(int shard, int shards) const;
+
   /// `construction, behaviour = rigid_registration, seed 3`.
   std::string title(const PlannedTrial& trial) const;
 

@@ -44,19 +44,19 @@ StudyResults::StudyResults(const StudyPlan& plan, const Store& store,
     const PlannedTrial& trial = plan.trial(i);
     place.emplace(plan.groups()[trial.group].key(trial.cell, trial.replication), i);
   }
-  std::string program;
-  for (const StoredTrial& stored : store.trials(metrics)) {
+  const auto take = [&](const StoredTrial& stored) {
     const auto found = place.find(stored.key);
-    if (found == place.end()) continue;  // of an earlier form of the study
-    if (program.empty()) program = stored.program;
-    if (stored.program != program) {
-      throw InputError("trials of this study were run by shoal " + program + " and by " +
+    if (found == place.end()) return;  // of an earlier form of the study
+    if (program_.empty()) program_ = stored.program;
+    if (stored.program != program_) {
+      throw InputError("trials of this study were run by shoal " + program_ + " and by " +
                        stored.program + "; run shoal sweep with --rerun-changed");
     }
     states_[found->second] = stored.failed() ? State::failed : State::done;
     failures_[found->second] = stored.failure;
     for (const auto& [name, value] : stored.metrics) metrics_[name][found->second] = value;
-  }
+  };
+  store.visit(take, metrics);
   for (const std::string& name : series) {
     for (auto& [key, numbers] : store.series(name)) {
       const auto found = place.find(key);

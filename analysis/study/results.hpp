@@ -38,6 +38,8 @@ class StudyResults {
   State state(std::size_t trial) const { return states_[trial]; }
   std::size_t count(State state) const;
   const std::string& failure(std::size_t trial) const { return failures_[trial]; }
+  /// The shoal that ran the trials; "" if none has run.
+  const std::string& program() const { return program_; }
 
   /// Nothing if the trial is missing or failed, or if what is asked for has no value there: a
   /// metric that is null, a series that begins later or ends before.
@@ -49,6 +51,7 @@ class StudyResults {
   StudyPlan plan_;
   std::vector<State> states_;
   std::vector<std::string> failures_;
+  std::string program_;
   std::map<std::string, std::vector<std::optional<double>>> metrics_;
   std::map<std::string, std::vector<std::optional<scenarios::Series>>> series_;
 };

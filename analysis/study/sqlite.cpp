@@ -7,11 +7,19 @@
 #include "shoal/core/error.hpp"
 
 namespace shoal::analysis {
+namespace {
+
+[[noreturn]] void fail(sqlite3* connection) {
+  const char* file = sqlite3_db_filename(connection, "main");
+  throw SystemError("cannot use the store " + std::string(file ? file : "") + ": " +
+                    sqlite3_errmsg(connection) + "; check free space and permissions");
+}
+
+}  // namespace
 
 Statement::Statement(sqlite3* connection, const std::string& sql) : connection_(connection) {
   if (sqlite3_prepare_v2(connection, sql.c_str(), -1, &statement_, nullptr) != SQLITE_OK) {
-    throw SystemError(std::string("the store does not take a statement: ") +
-                      sqlite3_errmsg(connection));
+    fail(connection);
   }
 }
 
@@ -45,10 +53,14 @@ void Statement::bind(int i, std::span<const double> numbers) {
 bool Statement::step() {
   const int code = sqlite3_step(statement_);
   if (code != SQLITE_ROW && code != SQLITE_DONE) {
-    throw SystemError(std::string("cannot use the store: ") + sqlite3_errmsg(connection_) +
-                      "; check free space and permissions");
+    fail(connection_);
   }
   return code == SQLITE_ROW;
+}
+
+void Statement::reset() {
+  sqlite3_reset(statement_);
+  sqlite3_clear_bindings(statement_);
 }
 
 std::string Statement::text(int i) const {
@@ -78,6 +90,16 @@ std::vector<double> Statement::numbers(int i) const {
                 numbers.size() * sizeof(double));
   }
   return numbers;
+}
+
+Statement& KeptStatement::ready(sqlite3* connection, const std::string& sql) {
+  if (statement_ && sql_ == sql) {
+    statement_->reset();
+  } else {
+    statement_ = std::make_unique<Statement>(connection, sql);
+    sql_ = sql;
+  }
+  return *statement_;
 }
 
 Transaction::Transaction(sqlite3* connection) : connection_(connection) {

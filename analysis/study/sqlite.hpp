@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
@@ -23,11 +24,13 @@ class Statement {
   void bind(int i, const std::string& text);
   void bind(int i, std::int64_t number);
   void bind(int i, const std::optional<double>& number);
-  /// As their bytes; they must outlive the statement.
+  /// As their bytes; they must stay until the statement is reset or gone.
   void bind(int i, std::span<const double> numbers);
 
   /// Whether there is a row. Throws SystemError.
   bool step();
+  /// Makes it ready to run again, with nothing bound.
+  void reset();
 
   std::string text(int i) const;
   bool null(int i) const;
@@ -38,6 +41,19 @@ class Statement {
  private:
   sqlite3* connection_;
   sqlite3_stmt* statement_ = nullptr;
+};
+
+/// A place for a statement that is run again and again: to prepare one takes longer than to run it.
+class KeptStatement {
+ public:
+  /// The statement, with nothing bound; made if it is the first one, or another than before.
+  Statement& ready(sqlite3* connection, const std::string& sql);
+  /// A connection with statements cannot be closed.
+  void drop() { statement_.reset(); }
+
+ private:
+  std::string sql_;
+  std::unique_ptr<Statement> statement_;
 };
 
 /// All that is written until commit(), or nothing of it.

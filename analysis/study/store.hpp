@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -18,9 +19,10 @@ struct StoredTrial {
   std::vector<std::pair<std::string, std::string>> factors;  ///< name, label
   int replication = 0;                                       ///< from 0
   std::int64_t seed = 0;
-  std::string id;       ///< trial_identity()
-  std::string program;  ///< that ran it
-  std::string failure;  ///< why it failed; "" if it did not
+  std::string scenario;  ///< CellScenario::identity: the same for all trials of a cell
+  std::string id;        ///< trial_identity()
+  std::string program;   ///< that ran it
+  std::string failure;   ///< why it failed; "" if it did not
   double wall_s = 0.0;
   std::vector<std::pair<std::string, std::optional<double>>> metrics;
   std::vector<scenarios::Series> series;
@@ -45,16 +47,28 @@ class Store {
   Store& operator=(Store&&) noexcept;
 
   /// In one transaction. A trial of the same key is replaced. Throws SystemError; then nothing of
-  /// the trial is stored.
+  /// the trial is stored. A metric that is NaN is a mistake of the caller: SQLite keeps none.
   void write(const StoredTrial& trial);
 
   /// In one transaction.
   void erase(const std::vector<std::string>& keys);
 
-  /// Every trial, without its series; in no particular order. With `metrics`, these only (null
-  /// where no trial of the store has it), else all.
+  /// What is written and erased in `work` is stored together when it ends, or not at all if it
+  /// throws.
+  void together(const std::function<void()>& work);
+
+  /// Calls `visitor` with every trial, without its series; in no particular order. With `metrics`,
+  /// these only (null where no trial of the store has it), else all.
+  void visit(const std::function<void(StoredTrial& trial)>& visitor,
+             const std::optional<std::vector<std::string>>& metrics = {}) const;
   std::vector<StoredTrial> trials(
       const std::optional<std::vector<std::string>>& metrics = {}) const;
+
+  /// The trial of that key, with all its metrics and without its series.
+  std::optional<StoredTrial> find(const std::string& key) const;
+
+  /// All series of one trial, by name.
+  std::vector<scenarios::Series> series_of(const std::string& key) const;
 
   /// The numbers of one series, of every trial that has it, with the key of the trial.
   std::vector<std::pair<std::string, scenarios::Series>> series(const std::string& name) const;

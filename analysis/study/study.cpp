@@ -20,7 +20,10 @@ constexpr std::array<std::string_view, 4> of_a_group{"scenario", "factor", "excl
 Setting with_groups(Setting root) {
   const Setting* grouped = root.find("group");
   Setting group;
-  group.origin = root.origin;
+  // The file as a whole has no line. That of the base stands for the group: it says beside which
+  // file the base is.
+  const Setting* base = root.find("scenario");
+  group.origin = base ? base->origin : root.origin;
   Setting::Table rest;
   for (auto& [name, entry] : root.table()) {
     if (std::ranges::find(of_a_group, name) == of_a_group.end()) {
@@ -32,7 +35,8 @@ Setting with_groups(Setting root) {
     }
   }
   if (!grouped) {
-    rest.emplace_back("group", Setting{Setting::List{std::move(group)}, root.origin});
+    const Origin origin = group.origin;
+    rest.emplace_back("group", Setting{Setting::List{std::move(group)}, origin});
   }
   root.value = std::move(rest);
   return root;
@@ -125,6 +129,10 @@ void Group::declare(Options<Group>& o) {
 }
 
 std::optional<std::string> Group::complaint() const {
+  // A study that asks for no tables has one of each group, called like it.
+  if (!name.empty()) {
+    if (auto wrong = name_complaint(name, "a group")) return wrong;
+  }
   const bool moves = std::ranges::any_of(factors, [](const Factor& factor) {
     return factor.key == "scenario" ||
            std::ranges::all_of(factor.levels, [](const Level& l) { return !l.scenario.empty(); });
@@ -253,6 +261,14 @@ Study read_study(const Setting& root) {
   require_names(study.sensitivities, names);
   require_known_quantities(study);
   return study;
+}
+
+bool looks_like_a_study(const Setting& root) {
+  const Schema& study = schema_of<Study>();
+  return std::ranges::any_of(root.table(), [&](const auto& entry) {
+    return study.find(entry.first) != nullptr ||
+           std::ranges::find(of_a_group, entry.first) != of_a_group.end();
+  });
 }
 
 std::vector<std::string> library_studies() {

@@ -122,6 +122,9 @@ struct Study {
 /// Throws InputError.
 Study read_study(const Setting& root);
 
+/// Whether a file is meant as a study and not as a scenario: by the names that stand in it.
+bool looks_like_a_study(const Setting& root);
+
 /// The file of a study given by path, or by its name among those that ship. Throws InputError.
 std::filesystem::path find_study(const std::string& name_or_path);
 

@@ -1,17 +1,8 @@
 #include "shoal/analysis/study/study_files.hpp"
 
-#include <sys/utsname.h>
-#include <unistd.h>
-
-#include <array>
-#include <ctime>
 #include <fstream>
 #include <iterator>
-#include <nlohmann/json.hpp>
-#include <optional>
-#include <thread>
 
-#include "shoal/analysis/build_info.hpp"
 #include "shoal/analysis/study/cell_scenarios.hpp"
 #include "shoal/core/option_place.hpp"
 #include "shoal/core/text.hpp"
@@ -24,7 +15,6 @@ namespace shoal::analysis {
 namespace {
 
 namespace fs = std::filesystem;
-using Json = nlohmann::ordered_json;
 
 std::string text_of(const fs::path& file) {
   std::ifstream in(file, std::ios::binary);
@@ -81,42 +71,6 @@ void make_factor_absolute(Setting& factor) {
   }
 }
 
-std::string now_utc() {
-  const std::time_t now = std::time(nullptr);
-  std::tm utc{};
-  ::gmtime_r(&now, &utc);
-  std::array<char, 32> text{};
-  std::strftime(text.data(), text.size(), "%Y-%m-%dT%H:%M:%SZ", &utc);
-  return text.data();
-}
-
-std::string processor() {
-  std::ifstream in("/proc/cpuinfo");
-  for (std::string line; std::getline(in, line);) {
-    if (!line.starts_with("model name")) continue;
-    return std::string(trimmed(line.substr(line.find(':') + 1)));
-  }
-  return "unknown";
-}
-
-Json host() {
-  utsname names{};
-  ::uname(&names);
-  return {{"name", names.nodename},
-          {"system", std::string(names.sysname) + " " + names.release},
-          {"machine", names.machine},
-          {"processor", processor()},
-          {"threads", std::thread::hardware_concurrency()}};
-}
-
-Json program() {
-  const BuildInfo& built = build_info();
-  Json libraries = Json::object();
-  for (const auto& [name, version] : built.libraries) libraries[name] = version;
-  return {{"version", built.version}, {"program", built.program},   {"commit", built.commit},
-          {"dirty", built.dirty},     {"compiler", built.compiler}, {"libraries", libraries}};
-}
-
 }  // namespace
 
 void write_study(const StudyPlan& plan, const fs::path& folder) {
@@ -145,58 +99,6 @@ StudyPlan stored_plan(const fs::path& folder) {
                      " holds no study.toml; name a folder that shoal sweep wrote");
   }
   return StudyPlan(read_study(scenarios::read_toml(file)));
-}
-
-Manifest::Manifest(const StudyPlan& plan, const fs::path& folder, const SweepSettings& settings)
-    : plan_(plan), folder_(folder), settings_(settings), earlier_("[]"), began_(now_utc()) {
-  const Json before = Json::parse(text_of(folder / "manifest.json"), nullptr, false);
-  if (before.is_object() && before.contains("sweeps")) earlier_ = before["sweeps"].dump();
-}
-
-void Manifest::begin() {
-  write("", {});
-}
-
-void Manifest::end(const SweepProgress& progress) {
-  write(now_utc(), progress);
-}
-
-void Manifest::write(const std::string& finished, const SweepProgress& progress) const {
-  const Study& study = plan_.study();
-  int most = 0;
-  Json groups = Json::array();
-  for (const PlannedGroup& group : plan_.groups()) {
-    most = std::max(most, group.replications());
-    groups.push_back({{"name", group.name()},
-                      {"scenario", group.group().scenario},
-                      {"design", group.group().design.kind()},
-                      {"factors", group.columns()},
-                      {"cells", group.cells()},
-                      {"replications", group.replications()}});
-  }
-  Json manifest;
-  manifest["title"] = study.title;
-  manifest["study"] = {{"file", "study.toml"},
-                       {"hash", hash_of(text_of(folder_ / "study.toml"))},
-                       {"groups", groups},
-                       {"trials", plan_.trials()}};
-  manifest["seeds"] = {{"first", study.seed}, {"last", study.seed + most - 1}};
-  manifest["program"] = program();
-  Json sweeps = Json::parse(earlier_);
-  Json own{{"host", host()}, {"program", build_info().program}, {"jobs", settings_.jobs}};
-  if (settings_.shards > 1) {
-    own["shard"] = std::to_string(settings_.shard) + "/" + std::to_string(settings_.shards);
-  }
-  own["began"] = began_;
-  if (!finished.empty()) {
-    own["ended"] = finished;
-    own["trials_run"] = progress.done;
-    own["failed"] = progress.failed;
-    own["wall_s"] = progress.elapsed_s;
-  }
-  sweeps.push_back(own);
-  manifest["sweeps"] = sweeps;
-  write_whole_file(folder_ / "manifest.json", manifest.dump(2) + "\n");
 }
 
 }  // namespace shoal::analysis

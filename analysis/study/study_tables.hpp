@@ -14,8 +14,8 @@ namespace shoal::analysis {
 StudyResults read_results(const StudyPlan& plan, const std::filesystem::path& folder);
 
 /// Throws InputError if a table or a claim asks for what the study does not have: better before its
-/// trials than after.
-void require_answerable(const StudyPlan& plan);
+/// trials than after. Returns how many tables there will be, that of the claims among them.
+std::size_t require_answerable(const StudyPlan& plan);
 
 /// Every table that the study asks for, in its order; a study that asks for none gets one for each
 /// group: every factor in the rows, a few metrics in the columns. Throws InputError.

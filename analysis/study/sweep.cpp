@@ -12,6 +12,7 @@
 #include "shoal/analysis/build_info.hpp"
 #include "shoal/analysis/study/cell_scenarios.hpp"
 #include "shoal/analysis/study/folder_lock.hpp"
+#include "shoal/analysis/study/manifest.hpp"
 #include "shoal/analysis/study/needed_series.hpp"
 #include "shoal/analysis/study/store.hpp"
 #include "shoal/analysis/study/study_files.hpp"
@@ -27,6 +28,7 @@ using Clock = std::chrono::steady_clock;
 /// One trial that is to run.
 struct Task {
   const PlannedTrial* trial;
+  std::string scenario;  // CellScenario::identity
   std::string id;
 };
 
@@ -44,16 +46,13 @@ class Missing {
     CellScenarios scenarios(plan);
     std::size_t cell_group = plan.groups().size(), cell = 0;
     std::string identity;
-    for (std::size_t i = 0; i < plan.trials(); ++i) {
+    for (const std::size_t i : plan.part(settings.shard, settings.shards)) {
       const PlannedTrial& trial = plan.trial(i);
       if (trial.group != cell_group || trial.cell != cell) {
         cell_group = trial.group;
         cell = trial.cell;
         identity = scenarios.of(cell_group, cell).identity;
       }
-      const bool of_this_shard = i % static_cast<std::size_t>(settings.shards) ==
-                                 static_cast<std::size_t>(settings.shard - 1);
-      if (!of_this_shard) continue;
       ++planned;
       const std::string key = plan.groups()[trial.group].key(trial.cell, trial.replication);
       const std::string id = trial_identity(identity, plan.seed(trial));
@@ -65,7 +64,7 @@ class Missing {
       }
       if (found == stored.end() || is_changed || incomplete.contains(key) ||
           (settings.retry_failed && found->second.failed())) {
-        tasks.push_back({&trial, id});
+        tasks.push_back({&trial, identity, id});
       } else {
         failed += found->second.failed() ? 1 : 0;
       }
@@ -177,6 +176,7 @@ class Crew {
                       .factors = {},
                       .replication = planned.replication,
                       .seed = plan_.seed(planned),
+                      .scenario = task.scenario,
                       .id = task.id,
                       .program = build_info().program,
                       .failure = std::move(outcome.failure),
@@ -228,15 +228,15 @@ SweepProgress sweep(const StudyPlan& plan, const fs::path& folder, const SweepSe
     store.erase(missing.changed);
   }
   write_study(plan, folder);
-  Manifest manifest(plan, folder, settings);
-  manifest.begin();
+  Manifest manifest(plan, folder);
+  manifest.begin_sweep(settings);
 
   SweepProgress progress;
   progress.planned = missing.planned;
   progress.stored = missing.planned - missing.tasks.size();
   progress.failed = missing.failed;
   progress = Crew(plan, store, missing.tasks, settings, progress).run();
-  manifest.end(progress);
+  manifest.end_sweep(progress);
   return progress;
 }
 

@@ -43,7 +43,4 @@ struct SweepSettings {
 SweepProgress sweep(const StudyPlan& plan, const std::filesystem::path& folder,
                     const SweepSettings& settings);
 
-/// The study that a sweep left in a folder. Throws InputError if there is none.
-StudyPlan stored_plan(const std::filesystem::path& folder);
-
 }  // namespace shoal::analysis

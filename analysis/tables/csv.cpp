@@ -3,6 +3,7 @@
 #include <set>
 #include <stdexcept>
 
+#include "shoal/analysis/tables/csv_line.hpp"
 #include "shoal/analysis/tables/layout.hpp"
 #include "shoal/core/text.hpp"
 
@@ -10,21 +11,6 @@ namespace shoal::analysis {
 namespace {
 
 using Fields = std::vector<std::string>;
-
-/// RFC 4180, section 2.
-std::string quoted(const std::string& text) {
-  if (text.find_first_of(",\"\n\r") == std::string::npos) return text;
-  std::string inside;
-  for (const char c : text) inside += c == '"' ? std::string("\"\"") : std::string(1, c);
-  return '"' + inside + '"';
-}
-
-std::string line(const Fields& fields) {
-  std::string joined;
-  for (const std::string& field : fields)
-    joined += (&field == &fields.front() ? "" : ",") + quoted(field);
-  return joined + "\n";
-}
 
 /// `Energy, mean (Wh)` as `energy_mean_wh`.
 std::string snake_case(const std::string& text) {
@@ -104,11 +90,11 @@ std::string as_csv(const Table& table) {
   if (std::set<std::string>(header.begin(), header.end()).size() < header.size()) {
     throw std::invalid_argument("table \"" + table.name + "\": two columns have the same name");
   }
-  std::string printed = line(header);
+  std::string printed = csv_line(header);
   for (const std::vector<Cell>& row : table.rows) {
     Fields fields;
     for (std::size_t c = 0; c < row.size(); ++c) add_cell(row[c], layout.columns[c], fields);
-    printed += line(fields);
+    printed += csv_line(fields);
   }
   return printed;
 }

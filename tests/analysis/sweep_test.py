@@ -12,60 +12,12 @@ import sys
 import time
 
 import desk
-from desk import Desk
+from study_desk import STUDY, TRIALS, StudyDesk
 
 KILLS = 4
 
-STUDY = """title = "two behaviours"
-scenario = "construction_square"
-replications = 3
-set = { trial.duration_s = 300 }
 
-[[factor]]
-name = "behaviour"
-key = "behaviour.kind"
-values = ["rigid_registration", "assignment_registration"]
-
-[[factor]]
-key = "behaviour.assignment_registration.delta_theta_deg"
-values = [10, 45]
-only = { behaviour = "assignment_registration" }
-
-[[table]]
-name = "energy"
-rows = ["behaviour", "delta_theta_deg"]
-metrics = ["energy_mean_wh", "quality_final_m"]
-
-[[table]]
-name = "against_time"
-columns = ["behaviour"]
-pool = ["delta_theta_deg"]
-series = ["quality"]
-every = 60
-"""
-TRIALS = 9  # rigid registration has no delta theta to vary
-
-
-class Sweep(Desk):
-    def setUp(self):
-        super().setUp()
-        self.write("study.toml", STUDY)
-
-    def sweep(self, *arguments, study="study.toml", out="out"):
-        done = self.shoal("sweep", study, "--out", out, *arguments)
-        self.assertEqual(done.returncode, 0, done.stderr)
-        return done.stdout
-
-    def tables(self, out="out"):
-        return {f.name: f.read_bytes() for f in (self.desk / out / "tables").iterdir()}
-
-    def rows(self, columns, out="out"):
-        store = sqlite3.connect(self.desk / out / "trials.sqlite")
-        try:
-            return store.execute(f"SELECT {columns} FROM trial ORDER BY trial_key").fetchall()
-        finally:
-            store.close()
-
+class Sweep(StudyDesk):
     def test_the_tables_do_not_depend_on_the_number_of_jobs(self):
         self.assertIn(f"{TRIALS} of {TRIALS} trials are stored", self.sweep("--jobs", 1, out="one"))
         self.sweep("--jobs", 3, out="three")
@@ -160,6 +112,14 @@ values = [0, 1000000]
             running.kill()
         self.assert_complains(refused, 1, ["out is in use by another shoal"])
 
+    def test_a_scenario_beside_the_study_is_found_from_everywhere(self):
+        for text in [STUDY.replace('"construction_square"', '"sea.toml"').replace("300", "60"),
+                     'replications = 2\n[[group]]\nname = "g"\nscenario = "sea.toml"\n']:
+            self.write("below/study.toml", text)
+            self.write("below/sea.toml", "[trial]\nduration_s = 60\n")
+            self.sweep("--rerun-changed", study="below/study.toml")
+            self.assertIn(" 0 of them run now", self.sweep(study="out/study.toml"))
+
     def test_bad_studies_are_refused_before_anything_runs(self):
         for what, wrong, right, parts in [
                 ("a key", "delta_thta", "delta_theta", ['no option "delta_thta_deg"', "did you mean"]),
@@ -168,6 +128,8 @@ values = [0, 1000000]
                 ("a row", 'rows = ["behavior"', 'rows = ["behaviour"', ['"behavior"', "did you mean"]),
                 ("a factor left out", 'rows = ["behaviour"]', 'rows = ["behaviour", "delta_theta_deg"]',
                  ["delta_theta_deg has several levels", "pool"]),
+                ("the name of a group", '[[group]]\nname = "a/b"\nscenario = "x"\n',
+                 STUDY, ['the name "a/b" becomes that of a file']),
                 ("a base", "construction_squre", "construction_square", ["did you mean"])]:
             with self.subTest(what):
                 self.write("bad.toml", STUDY.replace(right, wrong))
