@@ -1,6 +1,10 @@
 #include "shoal/scenarios/estimators/noise_statistics.hpp"
 
 #include <cmath>
+#include <map>
+#include <mutex>
+#include <tuple>
+#include <utility>
 
 namespace shoal::scenarios {
 namespace {
@@ -13,6 +17,53 @@ constexpr std::uint64_t batch = 1024;
 const RandomStreams& own_streams() {
   static const RandomStreams streams(0);
   return streams;
+}
+
+/// What has been simulated once, for all later trials of a process. Threads may ask at once.
+template <class Key, class Value>
+class Simulated {
+ public:
+  template <class Simulate>
+  Value operator()(const Key& key, const Simulate& simulate) {
+    const std::scoped_lock lock(mutex_);
+    const auto found = known_.find(key);
+    return found != known_.end() ? found->second : known_.emplace(key, simulate()).first->second;
+  }
+
+ private:
+  std::mutex mutex_;
+  std::map<Key, Value> known_;
+};
+
+ChannelStatistics sensor_statistics(Sensor sensor, bool faults, double steps) {
+  static Simulated<std::tuple<Sensor, bool, double>, ChannelStatistics> simulated;
+  return simulated({sensor, faults, steps}, [&] {
+    const GaussMarkov& printed = sensor_model(sensor);
+    return simulated_statistics(faults ? printed : printed.without_faults(), steps);
+  });
+}
+
+struct DisturbanceStatistics {
+  BodyCovariance marginal, white;
+};
+
+/// At scale 1.
+DisturbanceStatistics simulate_disturbances(RateLimit rate_limit, double period_s) {
+  Disturbances disturbances({.scale = 1.0, .rate_limit = rate_limit}, 1, own_streams(), period_s);
+  BodyCovariance squares = BodyCovariance::Zero(), squared_means = BodyCovariance::Zero();
+  for (std::uint64_t b = 0; b <= batches; ++b) {
+    BodyAcceleration sum = BodyAcceleration::Zero();
+    BodyCovariance sum_of_squares = BodyCovariance::Zero();
+    for (std::uint64_t k = b * batch; k < (b + 1) * batch; ++k) {
+      const BodyAcceleration a = disturbances.sample(0, k);
+      sum += a;
+      sum_of_squares += a * a.transpose();
+    }
+    if (b == 0) continue;
+    squares += sum_of_squares;
+    squared_means += sum * sum.transpose() / static_cast<double>(batch);
+  }
+  return {squares / double{batches * batch}, squared_means / double{batches}};
 }
 
 }  // namespace
@@ -52,9 +103,8 @@ VehicleCovariance simulated_measurement_covariance(const SensorNoise& noise, dou
   std::array<double, 5> variances{};
   for (const Sensor sensor :
        {Sensor::velocity, Sensor::rate, Sensor::position, Sensor::depth, Sensor::attitude}) {
-    const GaussMarkov& printed = sensor_model(sensor);
     variances[static_cast<std::size_t>(sensor)] =
-        simulated_statistics(noise.faults ? printed : printed.without_faults(), steps).of(model);
+        sensor_statistics(sensor, noise.faults, steps).of(model);
   }
   VehicleState variance;
   for (std::size_t i = 0; i < 12; ++i) {
@@ -68,24 +118,11 @@ VehicleCovariance simulated_measurement_covariance(const SensorNoise& noise, dou
 
 BodyCovariance simulated_disturbance_covariance(const ProcessNoise& noise, double period_s,
                                                 NoiseModel model) {
-  ProcessNoise sounding = noise;
-  sounding.on = true;
-  Disturbances disturbances(sounding, 1, own_streams(), period_s);
-  BodyCovariance squares = BodyCovariance::Zero(), squared_means = BodyCovariance::Zero();
-  for (std::uint64_t b = 0; b <= batches; ++b) {
-    BodyAcceleration sum = BodyAcceleration::Zero();
-    BodyCovariance sum_of_squares = BodyCovariance::Zero();
-    for (std::uint64_t k = b * batch; k < (b + 1) * batch; ++k) {
-      const BodyAcceleration a = disturbances.sample(0, k);
-      sum += a;
-      sum_of_squares += a * a.transpose();
-    }
-    if (b == 0) continue;
-    squares += sum_of_squares;
-    squared_means += sum * sum.transpose() / static_cast<double>(batch);
-  }
-  return model == NoiseModel::white ? BodyCovariance(squared_means / double{batches})
-                                    : BodyCovariance(squares / double{batches * batch});
+  static Simulated<std::pair<RateLimit, double>, DisturbanceStatistics> simulated;
+  const DisturbanceStatistics found = simulated({noise.rate_limit, period_s}, [&] {
+    return simulate_disturbances(noise.rate_limit, period_s);
+  });
+  return noise.scale * noise.scale * (model == NoiseModel::white ? found.white : found.marginal);
 }
 
 }  // namespace shoal::scenarios
