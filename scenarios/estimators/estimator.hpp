@@ -66,7 +66,8 @@ class Estimator {
 
   virtual ~Estimator() = default;
 
-  /// For vehicles that know their start, are sampled every `period_s` and disturbed by that.
+  /// For vehicles that know their start, are sampled every `period_s` and disturbed by that. Throws
+  /// InputError for options that make no filter, a start that is not finite, no period.
   virtual std::unique_ptr<Navigation> launch(const std::vector<VehicleState>& starts,
                                              const ProcessNoise& disturbance,
                                              const RandomStreams& random,

@@ -50,7 +50,7 @@ Disturbances::Disturbances(const ProcessNoise& noise, std::size_t vehicles,
 BodyAcceleration Disturbances::sample(std::size_t vehicle, std::uint64_t k) {
   if (!noise_.on) return BodyAcceleration::Zero();
   BodyAcceleration normals;
-  for (int pair = 0; pair < 3; ++pair) {
+  for (Eigen::Index pair = 0; pair < 3; ++pair) {
     const auto [a, b] = random_.normal(Purpose::process_noise, static_cast<std::uint32_t>(vehicle),
                                        3 * k + static_cast<std::uint64_t>(pair));
     normals(2 * pair) = a;

@@ -51,6 +51,7 @@ struct UkfEstimator final : Estimator {
   std::unique_ptr<Navigation> launch(const std::vector<VehicleState>& starts,
                                      const ProcessNoise& disturbance, const RandomStreams& random,
                                      double period_s) const override {
+    if (!(period_s > 0.0)) throw InputError("ukf: the period between samples has to be positive");
     UkfSettings<12, 12> settings;
     settings.scaling = options.scaling;
     settings.process_covariance = options.process_covariance(disturbance, period_s);

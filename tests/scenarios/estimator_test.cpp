@@ -252,6 +252,8 @@ TEST(VehicleFilterOptions, NameWhatIsWrong) {
   assign(table, "scaling.kappa", {-12.0, {}});
   const auto how = Registry<Estimator>::instance().make("ukf", table, "estimator.ukf");
   EXPECT_THROW(how->launch({VehicleState::Zero()}, {}, RandomStreams(1), period_s), InputError);
+  EXPECT_THROW(estimator("ukf")->launch({VehicleState::Zero()}, {}, RandomStreams(1), 0.0),
+               InputError);
 }
 
 }  // namespace
