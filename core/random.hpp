@@ -17,6 +17,9 @@ enum class Purpose : std::uint32_t {
   bootstrap,
   sign_flip,
   design,
+  sensor_state,
+  sensor_noise,
+  process_noise,
 };
 
 /// Counter-based random numbers (Philox4x32-10): the n-th number of a stream is a pure function of

@@ -5,6 +5,7 @@
 
 namespace {
 thread_local std::size_t count = 0;
+thread_local std::size_t heap_count = 0;
 
 [[maybe_unused]] void* counted(std::size_t size) {
   ++count;
@@ -22,6 +23,10 @@ thread_local std::size_t count = 0;
 
 std::size_t shoal::tests::allocations() noexcept {
   return count;
+}
+
+std::size_t shoal::tests::heap_requests() noexcept {
+  return heap_count;
 }
 
 // The sanitizers bring operators of their own; under them nothing is counted.
@@ -45,6 +50,13 @@ void operator delete(void* memory, std::align_val_t) noexcept {
 }
 void operator delete(void* memory, std::size_t, std::align_val_t) noexcept {
   std::free(memory);
+}
+
+// What glibc's own malloc is called, for programs that put another in front of it.
+extern "C" void* __libc_malloc(std::size_t size);
+extern "C" void* malloc(std::size_t size) {
+  ++heap_count;
+  return __libc_malloc(size);
 }
 
 #endif

@@ -10,4 +10,7 @@ namespace shoal::tests {
 /// the shared libraries that they load. Always 0 under a sanitizer.
 std::size_t allocations() noexcept;
 
+/// The same of malloc, which Eigen calls itself; operator new calls it, too.
+std::size_t heap_requests() noexcept;
+
 }  // namespace shoal::tests

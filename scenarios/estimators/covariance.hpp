@@ -1,0 +1,84 @@
+#pragma once
+
+#include <Eigen/Eigenvalues>
+#include <cmath>
+#include <limits>
+#include <string>
+
+#include "shoal/core/error.hpp"
+
+namespace shoal::scenarios {
+
+/// The lower triangular S of P = S S^T; columns of directions without variance are zero.
+///
+/// Returns false where P is not positive semidefinite beyond rounding, or not finite. Only the
+/// lower half of P is read.
+template <int N>
+bool lower_root(const Eigen::Matrix<double, N, N>& P, Eigen::Matrix<double, N, N>& S) {
+  constexpr double rounding = 8.0 * N * std::numeric_limits<double>::epsilon();
+  S.setZero();
+  for (int j = 0; j < N; ++j) {
+    const double variance = P(j, j);
+    const double pivot = variance - S.row(j).head(j).squaredNorm();
+    if (!std::isfinite(pivot) || !(pivot >= -rounding * variance)) return false;
+    const int below = N - 1 - j;
+    auto column = S.col(j).tail(below);
+    column = P.col(j).tail(below);
+    column.noalias() -= S.bottomLeftCorner(below, j) * S.row(j).head(j).transpose();
+    if (pivot > rounding * variance) {
+      S(j, j) = std::sqrt(pivot);
+      column /= S(j, j);
+      continue;
+    }
+    // Nothing is left in this direction; then nothing can vary with it either (Cauchy-Schwarz).
+    for (int i = j + 1; i < N; ++i) {
+      if (!(S(i, j) * S(i, j) <= 4.0 * rounding * variance * P(i, i))) return false;
+    }
+    column.setZero();
+  }
+  return true;
+}
+
+/// Lifts the eigenvalues of P, as a correlation matrix, to at least 1e-9: the nearest thing to P
+/// that a filter can go on with. Returns false where P is not finite.
+template <int N>
+bool lift_eigenvalues(Eigen::Matrix<double, N, N>& P) {
+  using Matrix = Eigen::Matrix<double, N, N>;
+  using Vector = Eigen::Matrix<double, N, 1>;
+  if (!P.allFinite()) return false;
+  // Variances of metres and of radians are put on one scale first.
+  const Vector sd = P.diagonal().unaryExpr(
+      [](double variance) { return variance != 0.0 ? std::sqrt(std::abs(variance)) : 1.0; });
+  const Vector per_sd = sd.cwiseInverse();
+  const Matrix correlation = per_sd.asDiagonal() * P * per_sd.asDiagonal();
+  const Eigen::SelfAdjointEigenSolver<Matrix> solved(correlation);
+  if (solved.info() != Eigen::Success) return false;
+  const Matrix scaled = sd.asDiagonal() * solved.eigenvectors();
+  P = scaled * solved.eigenvalues().cwiseMax(1e-9).asDiagonal() * scaled.transpose();
+  P = 0.5 * (P + P.transpose()).eval();
+  return true;
+}
+
+/// Throws InputError if P is no covariance: not finite, not symmetric, not positive semidefinite.
+template <int N>
+void require_covariance(const Eigen::Matrix<double, N, N>& P, const std::string& name) {
+  if (!P.allFinite()) throw InputError(name + " is not finite; every entry has to be a number");
+  const double largest = P.cwiseAbs().maxCoeff();
+  for (int i = 0; i < N; ++i) {
+    for (int j = 0; j < i; ++j) {
+      if (std::abs(P(i, j) - P(j, i)) <= 1e-12 * largest) continue;
+      throw InputError(name + " is not symmetric: entry (" + std::to_string(i) + ", " +
+                       std::to_string(j) + ") is " + std::to_string(P(i, j)) +
+                       ", its mirror image " + std::to_string(P(j, i)));
+    }
+  }
+  Eigen::Matrix<double, N, N> root;
+  if (lower_root<N>(P, root)) return;
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix<double, N, N>> solved(P,
+                                                                          Eigen::EigenvaluesOnly);
+  throw InputError(name + " is not positive semidefinite: its smallest eigenvalue is " +
+                   std::to_string(solved.eigenvalues()(0)) +
+                   "; check that no correlation exceeds 1");
+}
+
+}  // namespace shoal::scenarios

@@ -1,0 +1,43 @@
+#pragma once
+
+#include "shoal/scenarios/estimators/process_noise.hpp"
+#include "shoal/scenarios/estimators/sensor_noise.hpp"
+
+namespace shoal::scenarios {
+
+/// As what a filter, which takes noise to be white, is told of noise that is not.
+///
+/// Rate limits make the noise of a channel smaller than its sigma and correlated in time, so R_n
+/// and R_v are measured on the simulated noise itself (131072 samples of fixed streams: they depend
+/// on the noise and the period, not on the seed of a trial; what was simulated once is kept).
+///
+/// A filter that is told the variance of a sample believes the mean of many samples, although they
+/// all err the same way: on noise as printed its NEES is about 80 instead of 12. With the long mean
+/// it is about 7, and the errors are no larger. The price: a single sample has to be several times
+/// further off before it counts as an outlier.
+enum class NoiseModel {
+  marginal,  ///< the variance of a sample
+  white,     ///< the variance of white noise whose mean over a long time varies as much
+};
+
+struct ChannelStatistics {
+  double variance;     ///< of a sample, about zero
+  double white;        ///< NoiseModel::white
+  double fault_share;  ///< of all samples
+
+  double of(NoiseModel model) const { return model == NoiseModel::white ? white : variance; }
+};
+
+/// Of one channel, with `steps` as step_per_rate() says.
+ChannelStatistics simulated_statistics(const GaussMarkov& channel, double steps);
+
+/// R_n of a vehicle's twelve measurements (diagonal but for the mixing, eq. 75). It holds also for
+/// noise that is switched off, which a vehicle does not know.
+VehicleCovariance simulated_measurement_covariance(const SensorNoise& noise, double period_s,
+                                                   NoiseModel model);
+
+/// The covariance of the disturbing acceleration, (m/s^2)^2 and (rad/s^2)^2.
+BodyCovariance simulated_disturbance_covariance(const ProcessNoise& noise, double period_s,
+                                                NoiseModel model);
+
+}  // namespace shoal::scenarios

@@ -1,0 +1,111 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <bitset>
+#include <limits>
+
+#include "shoal/core/angles.hpp"
+#include "shoal/scenarios/estimators/covariance.hpp"
+#include "shoal/scenarios/estimators/sigma_points.hpp"
+
+namespace shoal::scenarios {
+
+/// How a step of a filter went; where several things happened, the last of this list counts.
+enum class UkfStatus {
+  ok,
+  saturated,  ///< an angle was so uncertain that sigma points met round the circle: its standard
+              ///< deviation was cut back until they just do not
+  repaired,   ///< a covariance was not positive semidefinite; its eigenvalues were lifted
+  singular,   ///< the innovation covariance has no inverse: the measurement was not used
+  lost,       ///< something was not finite: the estimate is the one before the step; restart()
+};
+
+/// A measured value further than `sigma` standard deviations of the innovation from its prediction
+/// is an outlier (C52). After `patience` of them in a row the filter doubts itself instead: the
+/// next one is let in, with the covariance widened until it lies just at the gate.
+struct OutlierGate {
+  double sigma = 4.0;  ///< 0: no gate
+  int patience = 10;
+};
+
+/// What a filter of N states and M measurements is told. Angles (radians) are marked: their
+/// differences are wrapped, their means are taken on the circle.
+template <int N, int M>
+struct UkfSettings {
+  UkfScaling scaling;
+  Eigen::Matrix<double, N, N> process_covariance;      ///< R_v, added in every prediction
+  Eigen::Matrix<double, M, M> measurement_covariance;  ///< R_n
+  std::array<bool, N> state_is_angle{};
+  std::array<bool, M> measurement_is_angle{};
+  OutlierGate gate;
+};
+
+/// What became of a measurement.
+template <int M, int N>
+struct UkfUpdate {
+  UkfStatus status = UkfStatus::ok;
+  Eigen::Matrix<double, M, 1> innovation;  ///< NaN where nothing was measured
+  Eigen::Matrix<double, M, M> innovation_covariance;
+  Eigen::Matrix<double, N, M> gain;  ///< columns of values that were not used are zero
+  std::bitset<M> missing;
+  std::bitset<M> rejected;    ///< outliers that were not used
+  std::bitset<M> readmitted;  ///< outliers that were used after too many in a row
+  double nis = 0.0;           ///< normalised innovation squared, over the values used
+  int used = 0;               ///< how many that were: the degrees of freedom of nis
+};
+
+/// Scaled unscented Kalman filter with additive noise: Barisic et al. 2011, Table 2, corrected by
+/// C47-C52. Allocates nothing.
+template <int N, int M>
+class Ukf {
+ public:
+  using State = Eigen::Matrix<double, N, 1>;
+  using StateCovariance = Eigen::Matrix<double, N, N>;
+  using Measurement = Eigen::Matrix<double, M, 1>;
+  using Settings = UkfSettings<N, M>;
+  using Update = UkfUpdate<M, N>;
+
+  /// Throws InputError if a covariance is none, or the scaling has no real sigma points.
+  Ukf(const Settings& settings, const State& x, const StateCovariance& P);
+
+  /// Starts again from an estimate. Throws InputError if P is no covariance, x not finite.
+  void restart(const State& x, const StateCovariance& P);
+
+  /// Time update; `process` is any callable State -> State.
+  template <class Process>
+  UkfStatus predict(const Process& process);
+
+  /// Measurement update; `measure` is any callable State -> Measurement. Values of y that are not
+  /// finite are missing: their rows are deleted (C51), and without any the prediction stands.
+  template <class Measure>
+  const Update& correct(const Measurement& y, const Measure& measure);
+
+  const State& state() const { return x_; }
+  const StateCovariance& covariance() const { return P_; }
+  /// The lower triangular root of the covariance.
+  const StateCovariance& root() const { return S_; }
+  const Settings& settings() const { return settings_; }
+
+ private:
+  static constexpr int points = 2 * N + 1;
+  using StatePoints = Eigen::Matrix<double, N, points>;
+  using MeasurementPoints = Eigen::Matrix<double, M, points>;
+
+  UkfStatus draw();
+  UkfStatus keep(const State& x, StateCovariance& P);
+  void gate(Eigen::Matrix<double, N, M>& P_xy, StateCovariance& P);
+
+  Settings settings_;
+  SigmaWeights weights_;
+  State x_;
+  StateCovariance P_, S_;
+  StatePoints X_;
+  MeasurementPoints Y_;
+  Update update_;
+  std::array<int, M> rejections_{};  // in a row
+};
+
+}  // namespace shoal::scenarios
+
+#include "shoal/scenarios/estimators/ukf_impl.hpp"

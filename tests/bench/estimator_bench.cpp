@@ -1,0 +1,85 @@
+// One filter cycle of one vehicle (predict and correct, 12 states, 12 measurements), and its parts.
+
+#include <benchmark/benchmark.h>
+
+#include "shoal/scenarios/estimators/vehicle_filter.hpp"
+
+namespace {
+
+using namespace shoal::scenarios;
+constexpr double period_s = 0.5;
+
+VehicleState cruising() {
+  VehicleState x = VehicleState::Zero();
+  x.head<6>() << 1.4, 0.05, -0.02, 0.01, -0.01, 0.05;
+  return x;
+}
+
+UkfSettings<12, 12> settings() {
+  const VehicleFilterOptions options;
+  UkfSettings<12, 12> made;
+  made.process_covariance = options.process_covariance({}, period_s);
+  made.measurement_covariance = options.measurement_covariance(period_s);
+  made.state_is_angle = made.measurement_is_angle = vehicle_angles;
+  return made;
+}
+
+template <class Process>
+void cycle(benchmark::State& state, const Process& process) {
+  VehicleState x = cruising();
+  VehicleFilter filter(settings(), x);
+  const KinematicModel moves{period_s};
+  for (auto _ : state) {
+    x = moves(x);
+    filter.predict(process);
+    benchmark::DoNotOptimize(filter.correct(x, x).nees);
+  }
+}
+
+void ukf_cycle_without_model(benchmark::State& state) {
+  cycle(state, [](const VehicleState& x) { return x; });
+}
+BENCHMARK(ukf_cycle_without_model);
+
+void ukf_cycle_kinematic(benchmark::State& state) {
+  cycle(state, KinematicModel{period_s});
+}
+BENCHMARK(ukf_cycle_kinematic);
+
+void kinematic_model_25_points(benchmark::State& state) {
+  VehicleState x = cruising();
+  for (auto _ : state) {
+    for (int k = 0; k < 25; ++k) benchmark::DoNotOptimize(x = KinematicModel{period_s}(x));
+  }
+}
+BENCHMARK(kinematic_model_25_points);
+
+void sensor_sample(benchmark::State& state) {
+  SensorBanks banks({}, 1, shoal::RandomStreams(1), period_s);
+  std::uint64_t k = 0;
+  for (auto _ : state) benchmark::DoNotOptimize(banks.sample(0, k++));
+}
+BENCHMARK(sensor_sample);
+
+void estimator_sample(benchmark::State& state) {
+  const auto how = shoal::Registry<Estimator>::instance().make("ukf", {}, "estimator.ukf");
+  VehicleState x = cruising();
+  const auto navigation = how->launch({x}, {}, shoal::RandomStreams(1), period_s);
+  const KinematicModel moves{period_s};
+  std::uint64_t k = 0;
+  for (auto _ : state) {
+    if (k > 0) x = moves(x);
+    benchmark::DoNotOptimize(navigation->sample(0, k++, x, moves).nees);
+  }
+}
+BENCHMARK(estimator_sample);
+
+void estimator_launch(benchmark::State& state) {
+  const auto how = shoal::Registry<Estimator>::instance().make("ukf", {}, "estimator.ukf");
+  for (auto _ : state) {
+    benchmark::DoNotOptimize(how->launch({cruising()}, {}, shoal::RandomStreams(1), period_s));
+  }
+}
+BENCHMARK(estimator_launch)->Unit(benchmark::kMillisecond);
+
+}  // namespace
