@@ -159,10 +159,14 @@ struct Case {
   Table (*make)();
 };
 
-constexpr Case cases[] = {
-    {"plain", plain},       {"spanning", spanning},     {"failures", failures},
-    {"negative", negative}, {"magnitudes", magnitudes}, {"special", special},
-    {"wide", wide},         {"empty", empty}};
+constexpr Case cases[] = {{"plain", plain},
+                          {"spanning", spanning},
+                          {"failures", failures},
+                          {"negative", negative},
+                          {"magnitudes", magnitudes},
+                          {"special", special},
+                          {"wide", wide},
+                          {"empty", empty}};
 
 class GoldenTables : public testing::TestWithParam<Case> {};
 
