@@ -44,6 +44,10 @@ def included_files(build):
     return included
 
 
+def object_of(command):
+    return re.search(r" -o (\S+) ", command["command"]).group(1)
+
+
 def key_of(command, included, build, checks):
     digest = hashlib.sha256(checks)
     digest.update(command["command"].replace(str(TOP), "").encode())
@@ -79,7 +83,7 @@ def check_tidy(build):
         if source not in commands:
             sys.exit(f"lint: {source} is not compiled, so it cannot be checked")
         command = commands[source]
-        built_from = included.get(command["output"])
+        built_from = included.get(object_of(command))
         key = key_of(command, built_from, build, checks) if built_from else None
         if key is None or not (CACHE / key).exists():
             waiting.append((source, key))
