@@ -28,7 +28,9 @@ def files(folders, *endings):
 
 def check_format():
     sources = files(LINTED + ["tests"], ".cpp", ".hpp")
-    subprocess.run(["clang-format", "--dry-run", "--Werror", *map(str, sources)], check=True)
+    done = subprocess.run(["clang-format", "--dry-run", "--Werror", *map(str, sources)])
+    if done.returncode != 0:
+        sys.exit("lint: clang-format -i would change these files")
 
 
 def included_files(build):
