@@ -107,6 +107,7 @@ class IndexTable {
         cells.push_back(cell_of(indices.factors[f].first_order));
         cells.push_back(text_if_zero(indices.factors[f].first_order));
         cells.push_back(cell_of(indices.factors[f].total));
+        cells.push_back(text_if_zero(indices.factors[f].total));
         table.rows.push_back(std::move(cells));
       }
       table.notes.push_back(
