@@ -6,15 +6,9 @@
 
 #include "shoal/core/registry.hpp"
 #include "shoal/formations/neighbourhood.hpp"
+#include "shoal/formations/plane_value.hpp"
 
 namespace shoal::formations {
-
-/// A cost at one place of the plane, with its derivatives with respect to x and y (m).
-struct PlaneValue {
-  double value = 0.0;
-  Eigen::Vector2d gradient = Eigen::Vector2d::Zero();
-  Eigen::Matrix2d hessian = Eigen::Matrix2d::Zero();
-};
 
 /// A term of the cost that keeps the swarm together: a function of the displacement from an anchor.
 ///

@@ -87,11 +87,14 @@ void CsvTable::take_header(const std::vector<std::string>& fields, int line,
   std::vector<std::string> known = columns.required;
   known.insert(known.end(), columns.optional.begin(), columns.optional.end());
   for (const std::string& field : fields) {
-    if (std::ranges::find(known, field) == known.end()) {
+    const bool is_known = std::ranges::find(known, field) != known.end();
+    if (!is_known && !columns.pass_over_others) {
       throw InputError(
           here, "there is no column \"" + field + "\" in such a file" + suggestion(field, known));
     }
-    if (has(field)) throw InputError(here, "the column \"" + field + "\" stands here twice");
+    if (is_known && has(field)) {
+      throw InputError(here, "the column \"" + field + "\" stands here twice");
+    }
     header_.push_back(field);
   }
   for (const std::string& column : columns.required) {

@@ -8,10 +8,11 @@
 
 namespace shoal::formations {
 
-/// What a CSV file must and may have; other columns are errors.
+/// What a CSV file must and may have; other columns are errors, or passed over.
 struct CsvColumns {
   std::vector<std::string> required;
   std::vector<std::string> optional;
+  bool pass_over_others = false;
 };
 
 /// A small CSV file, its columns known by name and its rows by their line.

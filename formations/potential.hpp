@@ -5,16 +5,10 @@
 #include <string>
 
 #include "shoal/core/registry.hpp"
+#include "shoal/formations/plane_value.hpp"
 #include "shoal/solvers/taylor.hpp"
 
 namespace shoal::formations {
-
-/// A pair potential at one distance: value, first and second derivative with respect to it.
-struct RadialValue {
-  double value = 0.0;
-  double slope = 0.0;
-  double curvature = 0.0;
-};
 
 /// A potential between two vehicles as a function of their distance r (m, above 0), lowest at the
 /// separation s (m). A law that is published as a force is enrolled as its integral.
