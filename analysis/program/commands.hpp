@@ -47,6 +47,7 @@ void describe(const std::string& name_or_key);
 void check(const std::vector<std::string>& files);
 void corpus(const CorpusArguments& arguments);
 void solve(const SolveArguments& arguments);
+void eval(const std::string& model, const std::string& file);
 void sweep(const SweepArguments& arguments);
 void merge(const std::string& folder, const std::vector<std::string>& others);
 void export_study(const std::string& folder, const std::string& out);

@@ -7,6 +7,7 @@
 #include <thread>
 
 #include "commands.hpp"
+#include "shoal/analysis/evaluation.hpp"
 #include "shoal/analysis/study/trial_outcome.hpp"
 #include "shoal/core/error.hpp"
 #include "shoal/solvers/solver.hpp"
@@ -195,6 +196,15 @@ int main(int argc, char** argv) {
   solve_command->add_option("--profiles", solve.profiles,
                             "CSV file for Dolan and Moré's performance profiles");
   solve_command->callback([&] { command = [&] { shoal::program::solve(solve); }; });
+
+  std::string model;
+  std::string inputs;
+  CLI::App* eval_command =
+      app.add_subcommand("eval", "Print a model's outputs for the inputs in a CSV file");
+  eval_command->add_option("model", model, "what to evaluate, as below")->required();
+  eval_command->add_option("file", inputs, "CSV file of its inputs")->required();
+  eval_command->footer(shoal::analysis::evaluations_text);
+  eval_command->callback([&] { command = [&] { shoal::program::eval(model, inputs); }; });
 
   try {
     app.parse(argc, argv);

@@ -1,0 +1,12 @@
+#include <fmt/core.h>
+
+#include "commands.hpp"
+#include "shoal/analysis/evaluation.hpp"
+
+namespace shoal::program {
+
+void eval(const std::string& model, const std::string& file) {
+  fmt::print("{}", analysis::evaluated(model, file));
+}
+
+}  // namespace shoal::program
