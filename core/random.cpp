@@ -7,22 +7,27 @@
 
 namespace shoal {
 
-std::array<double, 2> RandomStreams::uniform(Purpose purpose, std::uint32_t vehicle,
-                                             std::uint64_t index) const {
+std::array<std::uint64_t, 2> RandomStreams::bits(Purpose purpose, std::uint32_t vehicle,
+                                                 std::uint64_t index) const {
   using Generator = r123::Philox4x32;
   const auto low = [](std::uint64_t word) { return static_cast<std::uint32_t>(word); };
   const auto high = [](std::uint64_t word) { return static_cast<std::uint32_t>(word >> 32); };
   const Generator::ctr_type counter{
       {low(index), high(index), vehicle, static_cast<std::uint32_t>(purpose)}};
   const Generator::key_type key{{low(seed_), high(seed_)}};
-  const Generator::ctr_type bits = Generator{}(counter, key);
-
-  // The upper 53 of 64 bits, so that every value is exact and below one.
-  const auto unit = [](std::uint32_t a, std::uint32_t b) {
-    const std::uint64_t word = (static_cast<std::uint64_t>(a) << 32) | b;
-    return static_cast<double>(word >> 11) * 0x1p-53;
+  const Generator::ctr_type words = Generator{}(counter, key);
+  const auto joined = [](std::uint32_t a, std::uint32_t b) {
+    return (static_cast<std::uint64_t>(a) << 32) | b;
   };
-  return {unit(bits[0], bits[1]), unit(bits[2], bits[3])};
+  return {joined(words[0], words[1]), joined(words[2], words[3])};
+}
+
+std::array<double, 2> RandomStreams::uniform(Purpose purpose, std::uint32_t vehicle,
+                                             std::uint64_t index) const {
+  // The upper 53 of 64 bits, so that every value is exact and below one.
+  const auto unit = [](std::uint64_t word) { return static_cast<double>(word >> 11) * 0x1p-53; };
+  const auto [first, second] = bits(purpose, vehicle, index);
+  return {unit(first), unit(second)};
 }
 
 std::array<double, 2> RandomStreams::normal(Purpose purpose, std::uint32_t vehicle,

@@ -29,6 +29,10 @@ class RandomStreams {
  public:
   explicit RandomStreams(std::uint64_t seed) : seed_(seed) {}
 
+  /// 128 independent random bits.
+  std::array<std::uint64_t, 2> bits(Purpose purpose, std::uint32_t vehicle,
+                                    std::uint64_t index) const;
+
   /// Two independent numbers, uniform in [0, 1).
   std::array<double, 2> uniform(Purpose purpose, std::uint32_t vehicle, std::uint64_t index) const;
 

@@ -1,6 +1,9 @@
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdint>
 #include <numeric>
+#include <span>
 #include <stdexcept>
 #include <vector>
 
@@ -45,52 +48,57 @@ double share_at_least(double limit, Sample terms) {
 /// The sums of terms under random patterns of signs.
 class RandomSums {
  public:
-  explicit RandomSums(Sample terms) : size_(terms.size()) {
-    for (std::size_t begin = 0; begin < size_; begin += bits) {
-      const std::size_t end = std::min(begin + bits, size_);
-      for (std::size_t i = begin; i < end; i += at_once) {
-        add_sums(terms.subspan(i, std::min(at_once, end - i)));
+  explicit RandomSums(Sample terms) {
+    for (std::size_t begin = 0; begin < terms.size(); begin += at_once) {
+      add_table(terms.subspan(begin, std::min(at_once, terms.size() - begin)));
+    }
+  }
+
+  /// Under the patterns of these numbers: `first`, `first` + 1, ...
+  ///
+  /// Table by table for all patterns, not pattern by pattern: the tables in use stay in the cache,
+  /// and additions need not wait for one another.
+  void sum(const RandomStreams& random, std::uint32_t first, std::span<double> sums) const {
+    std::ranges::fill(sums, 0.0);
+    for (std::size_t begin = 0; begin < tables_.size(); begin += per_draw) {
+      const auto some = std::span(tables_).subspan(begin);
+      for (std::size_t k = 0; k < sums.size(); ++k) {
+        const auto number = first + static_cast<std::uint32_t>(k);
+        const auto [low, high] = random.bits(Purpose::sign_flip, number, begin / per_draw);
+        sums[k] += of_word(low, some.first(std::min(per_word, some.size())));
+        if (some.size() > per_word) {
+          sums[k] +=
+              of_word(high, some.subspan(per_word, std::min(per_word, some.size() - per_word)));
+        }
       }
     }
   }
 
-  /// Under the pattern of that number.
-  double sum(const RandomStreams& random, std::uint32_t number) const {
+ private:
+  static constexpr std::size_t at_once = 8;  // so many signs tell which sum to take
+  static constexpr std::size_t per_word = 64 / at_once, per_draw = 2 * per_word;
+  /// The sums of a few terms under all patterns of their signs.
+  using SumsOfFew = std::array<double, 1 << at_once>;
+
+  static double of_word(std::uint64_t signs, std::span<const SumsOfFew> tables) {
     double sum = 0.0;
-    const double* sums = sums_.data();
-    std::size_t begin = 0;
-    for (std::uint32_t draw = 0; begin < size_; ++draw) {
-      for (const double u : random.uniform(Purpose::sign_flip, number, draw)) {
-        const std::size_t end = std::min(begin + bits, size_);
-        auto signs = static_cast<std::uint64_t>(u * 0x1p53);
-        for (; begin < end; begin += std::min(at_once, end - begin)) {
-          sum += sums[signs & (patterns - 1)];
-          sums += patterns;
-          signs >>= at_once;
-        }
-      }
+    for (const SumsOfFew& table : tables) {
+      sum += table[signs % table.size()];
+      signs >>= at_once;
     }
     return sum;
   }
 
- private:
-  static constexpr std::size_t bits = 53;    // in one uniform number
-  static constexpr std::size_t at_once = 8;  // so many signs tell which sum to take
-  static constexpr std::size_t patterns = 1 << at_once;
-
-  /// Under all patterns of their signs; a term that is not there has none.
-  void add_sums(Sample terms) {
-    for (std::size_t pattern = 0; pattern < patterns; ++pattern) {
-      double sum = 0.0;
-      for (std::size_t i = 0; i < terms.size(); ++i) {
-        sum += ((pattern >> i) & 1) != 0 ? terms[i] : -terms[i];
+  void add_table(Sample few) {
+    SumsOfFew& sums = tables_.emplace_back();
+    for (std::size_t pattern = 0; pattern < sums.size(); ++pattern) {
+      for (std::size_t i = 0; i < few.size(); ++i) {
+        sums[pattern] += ((pattern >> i) & 1) != 0 ? few[i] : -few[i];
       }
-      sums_.push_back(sum);
     }
   }
 
-  std::size_t size_;
-  std::vector<double> sums_;
+  std::vector<SumsOfFew> tables_;
 };
 
 }  // namespace
@@ -120,12 +128,16 @@ std::optional<TestResult> sign_flip_test(Sample differences, Alternative alterna
   } else {
     const RandomStreams random(options.seed);
     const RandomSums sums(differences);
-    int as_far_out = 0;
-    for (int number = 0; number < options.resamples; ++number) {
-      const double sum = sums.sum(random, static_cast<std::uint32_t>(number));
-      if ((two_sided ? std::abs(sum) : sum) >= outward - tie) ++as_far_out;
+    std::array<double, 256> block;
+    std::ptrdiff_t as_far_out = 0;
+    for (int done = 0; done < options.resamples; done += static_cast<int>(block.size())) {
+      const std::span<double> some(block.data(),
+                                   std::min<std::size_t>(block.size(), options.resamples - done));
+      sums.sum(random, static_cast<std::uint32_t>(done), some);
+      as_far_out += std::ranges::count_if(
+          some, [&](double sum) { return (two_sided ? std::abs(sum) : sum) >= outward - tie; });
     }
-    result.p_value = (as_far_out + 1.0) / (options.resamples + 1.0);
+    result.p_value = (static_cast<double>(as_far_out) + 1.0) / (options.resamples + 1.0);
   }
   return result;
 }

@@ -181,7 +181,7 @@ class CellTable {
       std::size_t quantity, step, first_test, tests;
     };
     std::vector<Contest> contests;
-    std::vector<double> p_values;
+    std::vector<std::vector<double>> differences;  // of each test
     std::set<Place> seen;
     for (const Place& place : slices_.places()) {
       Place others = place;
@@ -200,14 +200,16 @@ class CellTable {
           const auto best = std::ranges::min_element(rivals, {}, [&](const auto& rival) {
             return sign * statistics::mean(rival.second.values);
           });
-          contests.push_back({best->first, q, step, p_values.size(), rivals.size() - 1});
+          contests.push_back({best->first, q, step, differences.size(), rivals.size() - 1});
           for (auto rival = rivals.begin(); rival != rivals.end(); ++rival) {
-            if (rival == best) continue;
-            p_values.push_back(
-                paired_p_value(best->second.minus(rival->second), request_.test).value_or(1.0));
+            if (rival != best) differences.push_back(best->second.minus(rival->second));
           }
         }
       }
+    }
+    std::vector<double> p_values;
+    for (const std::optional<double>& p : paired_p_values(differences, request_.test)) {
+      p_values.push_back(p.value_or(1.0));
     }
     const std::vector<double> adjusted = statistics::holm(p_values);
     for (const Contest& contest : contests) {

@@ -62,8 +62,7 @@ Table difference_table(const ComparisonRequest& request, const StudyResults& res
   table.columns.push_back({.header = "rank", .name = "rank_biserial"});
   table.columns.push_back({.header = "needed", .name = "replications_needed"});
 
-  std::vector<double> p_values;
-  std::vector<std::size_t> tested;  // the row of each
+  std::vector<std::vector<double>> samples;  // of each row
   for (const std::string& metric : request.metrics) {
     const Quantity& quantity = known_value(metric, request.origin);
     const Question question{metric, "", "", 0.0};
@@ -84,10 +83,6 @@ Table difference_table(const ComparisonRequest& request, const StudyResults& res
                        (quantity.unit.empty() ? "" : " (" + quantity.unit + ")"));
       row.emplace_back(compared.labels[own]);
       row.push_back(difference_cell(differences, sample.failed + other.failed));
-      if (const auto p = paired_p_value(differences, request.test)) {
-        p_values.push_back(*p);
-        tested.push_back(table.rows.size());
-      }
       row.emplace_back(Missing{});  // p, once all are known
       row.push_back(number(statistics::hedges_g_z(differences), Digits::decimals(2)));
       row.push_back(
@@ -97,7 +92,16 @@ Table difference_table(const ComparisonRequest& request, const StudyResults& res
                                                        request.resolve_percent / 100.0;
       row.push_back(replications_cell(differences, wanted));
       table.rows.push_back(std::move(row));
+      samples.push_back(differences);
     }
+  }
+  std::vector<double> p_values;
+  std::vector<std::size_t> tested;  // the row of each
+  const auto answers = paired_p_values(samples, request.test);
+  for (std::size_t row = 0; row < answers.size(); ++row) {
+    if (!answers[row]) continue;
+    p_values.push_back(*answers[row]);
+    tested.push_back(row);
   }
   const std::vector<double> adjusted = statistics::holm(p_values);
   const std::size_t p_column = table.columns.size() - 4;
