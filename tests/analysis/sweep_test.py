@@ -3,6 +3,7 @@
     python3 sweep_test.py SHOAL [--kills N]     (the program; N: default 4)
 """
 
+import csv
 import os
 import random
 import signal
@@ -15,6 +16,30 @@ import desk
 from study_desk import STUDY, TRIALS, StudyDesk
 
 KILLS = 4
+
+
+SENSITIVITY = """scenario = "construction_square"
+replications = 1
+set = { trial.duration_s = 90 }
+
+[design]
+kind = "saltelli"
+saltelli.base_samples = 4
+
+[[factor]]
+name = "radius"
+key = "guidance.drifting_radius_m"
+range = [15, 75]
+
+[[factor]]
+name = "noise"
+key = "ping.bearing_sd_deg"
+range = [0, 15]
+
+[[sensitivity]]
+name = "indices"
+metrics = ["energy_mean_wh", "quality_final_m"]
+"""
 
 
 class Sweep(StudyDesk):
@@ -48,6 +73,31 @@ class Sweep(StudyDesk):
         self.assertEqual(self.tables(), self.tables("whole"))
         self.assertEqual(self.rows("trial_id, energy_mean_wh"),
                          self.rows("trial_id, energy_mean_wh", "whole"))
+
+    def test_sensitivities_are_tables_like_others(self):
+        self.write("indices.toml", SENSITIVITY)
+        self.sweep(study="indices.toml")
+        tables = self.tables()
+        self.assertEqual(set(tables), {f"indices{part}.{kind}" for part in ("", "_convergence")
+                                       for kind in ("csv", "md", "tex")})
+        rows = list(csv.reader(tables["indices.csv"].decode().splitlines()))
+        self.assertEqual({len(row) for row in rows}, {len(rows[0])})
+        told = [(row[0], row[1]) for row in rows[1:]]
+        self.assertEqual(told, [(metric, factor) for metric in
+                                ("energy mean", "quality final")
+                                for factor in ("radius", "noise")])
+        total = rows[0].index("total")
+        self.assertTrue(all(row[total] for row in rows[1:]), rows)
+        self.assertEqual(self.shoal("tables", "out").returncode, 0)
+        self.assertEqual(self.tables(), tables)
+
+        wrong = {'"quality_final_m"': ('"qualty_final_m"', ["did you mean"]),
+                 '"saltelli"\nsaltelli.base_samples = 4': ('"sobol"\nsobol.samples = 8',
+                                                          ["needs design.kind"])}
+        for right, (mistake, parts) in wrong.items():
+            self.write("wrong.toml", SENSITIVITY.replace(right, mistake))
+            done = self.shoal("sweep", "wrong.toml", "--out", "wrong")
+            self.assert_complains(done, 2, ["wrong.toml:", *parts])
 
     def test_shards_part_the_trials(self):
         self.sweep("--shard", "1/2", out="first")
