@@ -6,7 +6,9 @@
 namespace shoal::analysis {
 namespace {
 
-/// A mean lies between two numbers, in every cell that the claim is about.
+/// A number lies between two others, in every cell that the claim is about: its mean, or that of
+/// each trial.
+template <bool of_each>
 struct Between final : ClaimTest {
   double at_least = -std::numeric_limits<double>::infinity();
   double at_most = std::numeric_limits<double>::infinity();
@@ -27,8 +29,10 @@ struct Between final : ClaimTest {
     std::vector<Contrast> contrasts;
     for (const std::size_t cell : scope.cells) {
       Contrast contrast;
+      contrast.of_each = of_each;
       for (const std::optional<double>& answer : scope.answers(cell)) {
         if (answer) contrast.numbers.push_back(*answer);
+        if (!answer) ++contrast.missing;
       }
       if (std::isfinite(at_least)) contrast.low = at_least;
       if (std::isfinite(at_most)) contrast.high = at_most;
@@ -38,7 +42,9 @@ struct Between final : ClaimTest {
   }
 };
 
-const Enrol<ClaimTest, Between> enrolled{"between", "a mean lies between two numbers"};
+const Enrol<ClaimTest, Between<false>> mean{"between", "a mean lies between two numbers"};
+const Enrol<ClaimTest, Between<true>> each{"each_between",
+                                           "in each trial, a number lies between two others"};
 
 }  // namespace
 }  // namespace shoal::analysis

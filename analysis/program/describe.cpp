@@ -40,12 +40,13 @@ void print_choice(const Option& option, const Setting& fallback, const std::stri
   }
 }
 
-void print_schema(const Schema& schema, const std::string& path);
+/// With the defaults of where it stands: those of its struct may be others.
+void print_schema(const Schema& schema, const Setting& defaults, const std::string& path);
 
 void print_entry(const Option& option, const Setting& fallback, const std::string& key) {
   if (option.table) {
     fmt::print("{}: {}\n", key, option.meaning);
-    print_schema(*option.table, key);
+    print_schema(*option.table, fallback, key);
   } else if (option.choice) {
     print_choice(option, fallback, key);
   } else {
@@ -53,15 +54,15 @@ void print_entry(const Option& option, const Setting& fallback, const std::strin
   }
 }
 
-void print_schema(const Schema& schema, const std::string& path) {
+void print_schema(const Schema& schema, const Setting& defaults, const std::string& path) {
   for (const Option& option : schema.options) {
-    print_entry(option, *schema.defaults.find(option.name), dotted(path, option.name));
+    print_entry(option, *defaults.find(option.name), dotted(path, option.name));
   }
 }
 
 void print_member(const RegistryBase& family, const MemberInfo& member, const std::string& path) {
   fmt::print("{} ({}): {}\n", member.name, family.family(), member.summary);
-  print_schema(member.schema(), path);
+  print_schema(member.schema(), member.schema().defaults, path);
 }
 
 /// Throws InputError at the first unknown part of the key.

@@ -92,9 +92,14 @@ Cell cell_of(const std::vector<double>& values, int failed, Statistic statistic)
 }
 
 std::string heading_of(const Quantity& quantity) {
-  const std::string ending = "_" + unit_in_names(quantity.unit);
   std::string name = quantity.name;
-  if (ending.size() > 1 && name.ends_with(ending)) name.resize(name.size() - ending.size());
+  for (const std::string& unit :
+       {unit_in_names(quantity.unit), unit_in_names(quantity.unit, "_")}) {
+    const std::string ending = "_" + unit;
+    if (unit.empty() || !name.ends_with(ending)) continue;
+    name.resize(name.size() - ending.size());
+    break;
+  }
   std::ranges::replace(name, '_', ' ');
   return name;
 }

@@ -60,7 +60,24 @@ std::vector<ClaimScope> scopes(const Claim& claim, const Question& question,
   return scopes;
 }
 
+/// Whether each number is as claimed: it takes one to contradict, and all to reproduce.
+ContrastResult judged_each(const Contrast& contrast) {
+  const auto [least, greatest] = std::ranges::minmax(contrast.numbers);
+  const bool outside =
+      (contrast.low && least < *contrast.low) || (contrast.high && greatest > *contrast.high);
+  return {.title = contrast.title,
+          .n = static_cast<int>(contrast.numbers.size()),
+          .mean = statistics::mean(contrast.numbers),
+          .low = least,
+          .high = greatest,
+          .of_each = true,
+          .verdict = outside                 ? Verdict::contradicted
+                     : contrast.missing == 0 ? Verdict::reproduced
+                                             : Verdict::undecided};
+}
+
 ContrastResult judged(const Contrast& contrast, double corrected_level) {
+  if (contrast.of_each && !contrast.numbers.empty()) return judged_each(contrast);
   ContrastResult result{.title = contrast.title, .n = static_cast<int>(contrast.numbers.size())};
   if (contrast.numbers.empty()) return result;
   result.mean = statistics::mean(contrast.numbers);
@@ -80,7 +97,7 @@ ContrastResult judged(const Contrast& contrast, double corrected_level) {
 
 /// Replications that would tell the mean of a contrast from the nearer end of what is claimed.
 std::optional<int> needed(const Contrast& contrast) {
-  if (contrast.numbers.size() < 2) return std::nullopt;
+  if (contrast.of_each || contrast.numbers.size() < 2) return std::nullopt;
   const double mean = statistics::mean(contrast.numbers);
   double distance = std::numeric_limits<double>::infinity();
   for (const auto& end : {contrast.low, contrast.high}) {

@@ -33,7 +33,8 @@ std::string_view name_of(Verdict verdict);
 struct ContrastResult {
   std::string title;
   int n = 0;
-  std::optional<double> mean, low, high;  ///< with Student's 95 % interval
+  std::optional<double> mean, low, high;  ///< with Student's 95 % interval, or the range:
+  bool of_each = false;                   ///< of a claim on each number
   Verdict verdict = Verdict::undecided;
 };
 

@@ -16,6 +16,8 @@ struct Contrast {
   std::string title;                ///< which cells
   std::vector<double> numbers;      ///< of the replications that have one
   std::optional<double> low, high;  ///< the claim holds for a mean between them (one may be absent)
+  bool of_each = false;             ///< the claim is on each number instead, ends included
+  int missing = 0;                  ///< replications without a number, if it is
 };
 
 /// How a statement becomes a test.

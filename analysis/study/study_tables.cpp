@@ -89,6 +89,10 @@ std::vector<JudgedClaim> judged_claims(const StudyResults& results) {
 std::string contrast_text(const ContrastResult& contrast) {
   std::string text = contrast.title.empty() ? "" : contrast.title + ": ";
   if (!contrast.mean) return text + "no value";
+  if (contrast.of_each) {
+    return text +
+           fmt::format("from {:.4g} to {:.4g}, n = {}", *contrast.low, *contrast.high, contrast.n);
+  }
   text += fmt::format("{:.4g}", *contrast.mean);
   if (contrast.low) text += fmt::format(" [{:.4g}, {:.4g}]", *contrast.low, *contrast.high);
   return text + fmt::format(", n = {}", contrast.n);

@@ -131,10 +131,29 @@ TEST_F(Stored, ClaimsOnBoundsTrendsAndLikenessAreTested) {
   EXPECT_EQ(verdict("kind = \"between\"\nbetween = { at_least = 5, at_most = 30 }"),
             Verdict::reproduced);
   EXPECT_EQ(verdict("kind = \"between\"\nbetween = { at_most = 15 }"), Verdict::contradicted);
+  EXPECT_EQ(verdict("kind = \"each_between\"\neach_between = { at_least = 5, at_most = 30 }"),
+            Verdict::reproduced);
   // Equal values have no scatter to judge by.
   EXPECT_EQ(verdict("kind = \"similar\"\nsimilar.cells = { behaviour = \"rigid_registration\" }\n"
                     "similar.to = { behaviour = \"pairwise_referencing\" }"),
             Verdict::undecided);
+}
+
+TEST_F(Stored, AClaimOnEachTrialIsContradictedByOneAndNotReproducedWithoutAll) {
+  const std::string at_most_14 = "kind = \"each_between\"\neach_between.at_most = 14";
+  StudyResults all = results({{{rigid, "10"}, low},
+                              {{rigid, "20"}, low},
+                              {{pairwise, "10"}, mixed},
+                              {{pairwise, "20"}, mixed}});
+  const ClaimResult reproduced = judged(at_most_14, all);
+  EXPECT_EQ(reproduced.verdict, Verdict::reproduced) << "its ends are included";
+  EXPECT_EQ(*reproduced.contrasts[0].low, 10.0);
+  EXPECT_EQ(*reproduced.contrasts[0].high, 14.0);
+  const std::string one_is_out = "kind = \"each_between\"\neach_between.at_most = 13.9";
+  EXPECT_EQ(judged(one_is_out, all).verdict, Verdict::contradicted);
+
+  all = results({{{rigid, "10"}, low}});  // the other cells failed
+  EXPECT_EQ(judged(at_most_14, all).verdict, Verdict::undecided);
 }
 
 TEST_F(Stored, ClaimsOnWhatTheStudyLacksAreRefused) {
