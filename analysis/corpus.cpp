@@ -60,8 +60,12 @@ Experiment to_experiment(const Json& json, const Origin& origin) {
     names.push_back(slot.at(0).get<std::string>());
     slots.emplace_back(slot.at(1).get<double>(), slot.at(2).get<double>());
   }
+  std::vector<scenarios::ObstacleOptions> obstacles;
+  for (const Json& obstacle : json.at("obstacles")) {
+    read(obstacles.emplace_back(), to_setting(obstacle, origin), "obstacle");
+  }
   return {json.at("scenario").get<std::string>(), to_setting(json.at("behaviour"), origin),
-          formations::Plan(std::move(names), std::move(slots), origin)};
+          formations::Plan(std::move(names), std::move(slots), origin), std::move(obstacles)};
 }
 
 Situation to_situation(const Json& json, const Corpus& corpus, const Origin& origin) {
@@ -76,12 +80,20 @@ Situation to_situation(const Json& json, const Corpus& corpus, const Origin& ori
   if (situation.own_slot < 0 || situation.own_slot >= slots) {
     throw InputError(origin, "the plan has no slot " + std::to_string(situation.own_slot));
   }
-  situation.own_position = {json.at("at").at(0).get<double>(), json.at("at").at(1).get<double>()};
+  const Json& own = json.at("own");
+  const auto of_own = [&own](std::size_t i) { return own.at(i).get<double>(); };
+  situation.own = {.position = {of_own(0), of_own(1)},
+                   .velocity = {of_own(2), of_own(3)},
+                   .heading_rad = of_own(4),
+                   .speed_m_s = of_own(5),
+                   .turn_rate_rad_s = of_own(6)};
   for (const Json& heard : json.at("heard")) {
     formations::Neighbour neighbour;
     neighbour.position = {heard.at(0).get<double>(), heard.at(1).get<double>()};
     neighbour.age_s = heard.at(2).get<double>();
     neighbour.slot = heard.at(3).get<int>();
+    neighbour.velocity = {heard.at(4).get<double>(), heard.at(5).get<double>()};
+    neighbour.heading_rad = heard.at(6).get<double>();
     if (neighbour.slot < formations::anonymous || neighbour.slot >= slots) {
       throw InputError(origin, "the plan has no slot " + std::to_string(neighbour.slot));
     }
@@ -116,15 +128,24 @@ void write_corpus(const Corpus& corpus, const std::filesystem::path& file) {
       const Eigen::Vector2d& slot = experiment.plan.slot(i);
       plan.push_back(Json::array({experiment.plan.name(i), slot.x(), slot.y()}));
     }
+    Json& obstacles = line["obstacles"] = Json::array();
+    for (const scenarios::ObstacleOptions& obstacle : experiment.obstacles) {
+      obstacles.push_back(
+          to_json(write_options(schema_of<scenarios::ObstacleOptions>(), &obstacle)));
+    }
     text += line.dump() + "\n";
   }
   for (const Situation& situation : corpus.situations) {
+    const formations::OwnState& own = situation.own;
     Json line{{"experiment", situation.experiment},
               {"slot", situation.own_slot},
-              {"at", {situation.own_position.x(), situation.own_position.y()}}};
+              {"own",
+               {own.position.x(), own.position.y(), own.velocity.x(), own.velocity.y(),
+                own.heading_rad, own.speed_m_s, own.turn_rate_rad_s}}};
     Json& heard = line["heard"] = Json::array();
     for (const formations::Neighbour& n : situation.neighbours) {
-      heard.push_back(Json::array({n.position.x(), n.position.y(), n.age_s, n.slot}));
+      heard.push_back(Json::array({n.position.x(), n.position.y(), n.age_s, n.slot, n.velocity.x(),
+                                   n.velocity.y(), n.heading_rad}));
     }
     text += line.dump() + "\n";
   }

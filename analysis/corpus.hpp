@@ -7,6 +7,7 @@
 
 #include "shoal/core/setting.hpp"
 #include "shoal/formations/behaviour.hpp"
+#include "shoal/scenarios/obstacles.hpp"
 
 namespace shoal::analysis {
 
@@ -15,6 +16,7 @@ struct Experiment {
   std::string scenario;
   Setting behaviour;  ///< complete, as a table with `kind`
   formations::Plan plan;
+  std::vector<scenarios::ObstacleOptions> obstacles;
 
   std::unique_ptr<formations::Behaviour> make_behaviour() const;
 };
@@ -23,7 +25,7 @@ struct Experiment {
 struct Situation {
   std::size_t experiment = 0;
   int own_slot = 0;
-  Eigen::Vector2d own_position = Eigen::Vector2d::Zero();
+  formations::OwnState own;
   std::vector<formations::Neighbour> neighbours;
 };
 

@@ -24,7 +24,7 @@ class Recording final : public formations::Behaviour {
     behaviour_->pose(seen, plan, posed);
     if (posed.count > 0) {
       (*noted_)[static_cast<std::size_t>(seen.own_slot)].push_back(
-          {0, seen.own_slot, seen.own_position, {seen.neighbours.begin(), seen.neighbours.end()}});
+          {0, seen.own_slot, seen.own, {seen.neighbours.begin(), seen.neighbours.end()}});
     }
     return behaviour_->step(seen, plan);
   }
@@ -35,6 +35,7 @@ class Recording final : public formations::Behaviour {
   }
 
   bool needs_ids() const override { return behaviour_->needs_ids(); }
+  std::optional<Eigen::Vector2d> waypoint() const override { return behaviour_->waypoint(); }
 
  private:
   std::shared_ptr<const Behaviour> behaviour_;
@@ -57,8 +58,8 @@ Corpus ProblemRecorder::corpus(const scenarios::Scenario& scenario, const std::s
                                const formations::Plan& plan) const {
   Corpus corpus;
   corpus.experiments.push_back(
-      {name, scenario.behaviour.setting().write(Registry<formations::Behaviour>::instance()),
-       plan});
+      {name, scenario.behaviour.setting().write(Registry<formations::Behaviour>::instance()), plan,
+       scenario.obstacles});
   for (const std::vector<Situation>& of_vehicle : *noted_) {
     corpus.situations.insert(corpus.situations.end(), of_vehicle.begin(), of_vehicle.end());
   }

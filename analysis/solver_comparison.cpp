@@ -98,15 +98,17 @@ SolverComparison::~SolverComparison() = default;
 
 void SolverComparison::run(const Corpus& corpus) {
   std::vector<std::unique_ptr<formations::Behaviour>> behaviours;
+  std::vector<std::vector<std::shared_ptr<const formations::Obstacle>>> obstacles;
   for (const Experiment& experiment : corpus.experiments) {
     behaviours.push_back(experiment.make_behaviour());
+    obstacles.push_back(scenarios::make_obstacles(experiment.obstacles));
   }
   // One solver after another, not problem by problem: a large one would leave the others a cold
   // cache, and a time that is not theirs.
   for (arena_->turn = 0; arena_->turn < arena_->turns(); ++arena_->turn) {
     for (const Situation& situation : corpus.situations) {
-      const formations::Neighbourhood seen{situation.neighbours, situation.own_slot,
-                                           situation.own_position};
+      const formations::Neighbourhood seen{situation.neighbours, situation.own_slot, situation.own,
+                                           obstacles[situation.experiment]};
       behaviours[situation.experiment]->pose(seen, corpus.experiments[situation.experiment].plan,
                                              *arena_);
     }

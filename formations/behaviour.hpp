@@ -31,6 +31,8 @@ struct Target {
   double cost = 0.0;  ///< of the solved problem, in its own unit
   /// The plan as laid onto what was heard, if the behaviour lays one.
   std::optional<Transform2> T_own_plan = std::nullopt;
+  /// m/s2, own frame, if the behaviour asks for a force per unit of mass instead of a place.
+  std::optional<Eigen::Vector2d> force_m_s2 = std::nullopt;
 
   bool held() const { return reason != Reason::placed; }
   static Target at(const Eigen::Vector2d& position, double cost) {
@@ -39,6 +41,9 @@ struct Target {
   /// At a slot (metres, frame of the plan) of a plan that was laid onto the neighbours.
   static Target at_slot(const Transform2& T_own_plan, const Eigen::Vector2d& slot, double cost) {
     return {T_own_plan * slot, Reason::placed, cost, T_own_plan};
+  }
+  static Target push(const Eigen::Vector2d& force_m_s2, double cost) {
+    return {Eigen::Vector2d::Zero(), Reason::placed, cost, std::nullopt, force_m_s2};
   }
   static Target hold(Reason why) { return {Eigen::Vector2d::Zero(), why}; }
 };
@@ -61,6 +66,11 @@ class Behaviour {
 
   /// True if anonymous neighbours are of no use to it.
   virtual bool needs_ids() const = 0;
+
+  /// The one place that all vehicles are led to, also those that hear nobody (metres, frame of the
+  /// own positions), if there is one. Such targets change as the vehicle moves: they must be
+  /// renewed by the clock, not only when pings were heard.
+  virtual std::optional<Eigen::Vector2d> waypoint() const { return std::nullopt; }
 };
 
 }  // namespace shoal::formations

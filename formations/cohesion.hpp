@@ -21,7 +21,7 @@ class Cohesion {
   virtual ~Cohesion() = default;
 
   /// Where it draws to, in metres, own frame: fixed while one problem is solved. `in_range` holds
-  /// at least one neighbour; `own_position` is as in Neighbourhood.
+  /// at least one neighbour; `own_position` is that of OwnState.
   virtual Eigen::Vector2d anchor(std::span<const Neighbour> in_range,
                                  const Eigen::Vector2d& own_position) const = 0;
 

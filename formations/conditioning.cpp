@@ -73,6 +73,19 @@ ConditionedCommand conditioned(const Eigen::Vector2d& force, const Motion& motio
           .reachable = allowed.reachable};
 }
 
+Command commanded(const Eigen::Vector2d& force, const OwnState& own, double period_s,
+                  const PerformanceEnvelope& envelope) {
+  const double c = std::cos(own.heading_rad), s = std::sin(own.heading_rad);
+  const Eigen::Vector2d in_body(c * force.x() + s * force.y(), c * force.y() - s * force.x());
+  const ConditionedCommand made =
+      conditioned(in_body, {own.speed_m_s, own.turn_rate_rad_s}, period_s, envelope);
+  return {.thrust = true,
+          .heading_rad = own.heading_rad + made.turn_rad,
+          .speed_m_s = made.speed_m_s,
+          .acceleration_m_s2 = made.acceleration_m_s2,
+          .turn_rate_rad_s = made.turn_rate_rad_s};
+}
+
 void PerformanceEnvelope::declare(Options<PerformanceEnvelope>& o) {
   using E = PerformanceEnvelope;
   o.number("speed_max_m_s", &E::speed_max_m_s, "m/s", above(0), "highest forward speed");

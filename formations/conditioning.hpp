@@ -5,6 +5,8 @@
 #include <string>
 
 #include "shoal/core/options.hpp"
+#include "shoal/formations/guidance.hpp"
+#include "shoal/formations/neighbourhood.hpp"
 
 namespace shoal::formations {
 
@@ -62,5 +64,9 @@ struct ConditionedCommand {
 /// but for rounding.
 ConditionedCommand conditioned(const Eigen::Vector2d& force, const Motion& motion, double period_s,
                                const PerformanceEnvelope& envelope);
+
+/// The command that follows from a force (m/s2, axes of the own positions) on a vehicle.
+Command commanded(const Eigen::Vector2d& force, const OwnState& own, double period_s,
+                  const PerformanceEnvelope& envelope);
 
 }  // namespace shoal::formations

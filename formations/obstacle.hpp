@@ -1,6 +1,8 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <memory>
+#include <span>
 
 #include "shoal/core/registry.hpp"
 
@@ -38,5 +40,8 @@ class Obstacle {
   Obstacle(const Obstacle&) = default;
   Obstacle& operator=(const Obstacle&) = default;
 };
+
+/// Obstacles that somebody else keeps alive.
+using Obstacles = std::span<const std::shared_ptr<const Obstacle>>;
 
 }  // namespace shoal::formations

@@ -29,6 +29,7 @@ void PingFilter::receive(const Ping& ping, const Eigen::Vector2d& own_position) 
 
   Track& track = track_of(ping, measured);
   track.heard_s = ping.time_s;
+  track.state = ping.state;
   track.samples.push_back(sample);
   track.position = own_position + filtered(track, ping.time_s);
 }
@@ -39,7 +40,12 @@ std::span<const Neighbour> PingFilter::neighbours(double time_s,
   neighbours_.resize(live_);
   for (std::size_t i = 0; i < live_; ++i) {
     const Track& track = tracks_[i];
-    neighbours_[i] = {track.position - own_position, time_s - track.heard_s, track.slot};
+    const double age_s = time_s - track.heard_s;
+    neighbours_[i] = {track.position - own_position, age_s, track.slot};
+    if (!track.state) continue;
+    neighbours_[i].position = track.state->position + age_s * track.state->velocity - own_position;
+    neighbours_[i].velocity = track.state->velocity;
+    neighbours_[i].heading_rad = track.state->heading_rad;
   }
   return neighbours_;
 }

@@ -19,6 +19,9 @@ struct Ping {
   double bearing_rad = 0.0;    ///< to the sender, counter-clockwise from east
   double elevation_rad = 0.0;  ///< to the sender, upwards positive
   int slot = anonymous;        ///< the sender's slot of the plan, if the ping carries an id
+  /// What the sender says of itself, if the ping carries that: in the frame of the own positions,
+  /// which the two must share.
+  std::optional<OwnState> state = std::nullopt;
 };
 
 /// Parameters of the ping filter: Rypkema 2015, Table 3.2.
@@ -41,6 +44,9 @@ struct PingFilterOptions {
 /// Pings with an id belong to the track of that slot. Pings without are given to the nearest track
 /// inside `gate_m` that was not heard within the last `rest_s` (nobody pings twice in so short a
 /// time); if there is none, a new track begins. Tracks unheard for `contact_timeout_s` are dropped.
+///
+/// A neighbour whose last ping carried its state is taken at its word instead, and to move on as it
+/// did then (Barisic et al. 2011, sec. 3: agents tell one another their states).
 class PingFilter {
  public:
   explicit PingFilter(const PingFilterOptions& options = {}) : options_(options) {}
@@ -61,6 +67,7 @@ class PingFilter {
     int slot = anonymous;
     double heard_s = 0.0;
     Eigen::Vector2d position = Eigen::Vector2d::Zero();  // in the frame of the own positions
+    std::optional<OwnState> state;                       // as told by the last ping
     std::vector<Sample> samples;
   };
 

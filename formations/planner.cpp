@@ -7,11 +7,12 @@
 namespace shoal::formations {
 
 Planner::Planner(std::shared_ptr<const Plan> plan, std::shared_ptr<const Behaviour> behaviour,
-                 std::string_view own_name, const PingFilterOptions& filter)
+                 std::string_view own_name, const PingFilterOptions& filter, Obstacles obstacles)
     : plan_(std::move(plan)),
       behaviour_(std::move(behaviour)),
       own_slot_(plan_->index_of(own_name)),
-      filter_(filter) {}
+      filter_(filter),
+      obstacles_(obstacles) {}
 
 void Planner::receive(const Ping& ping, const Eigen::Vector2d& own_position) {
   if (!std::isfinite(ping.time_s) || !std::isfinite(ping.range_m) || ping.range_m < 0.0 ||
@@ -35,10 +36,10 @@ void Planner::receive(const Ping& ping, const Eigen::Vector2d& own_position) {
   filter_.receive(ping, own_position);
 }
 
-const Target& Planner::plan(double time_s, const Eigen::Vector2d& own_position) {
-  target_ =
-      behaviour_->step({filter_.neighbours(time_s, own_position), own_slot_, own_position}, *plan_);
-  target_position_ = own_position + target_.position;
+const Target& Planner::plan(double time_s, const OwnState& own) {
+  target_ = behaviour_->step({filter_.neighbours(time_s, own.position), own_slot_, own, obstacles_},
+                             *plan_);
+  target_position_ = own.position + target_.position;
   return target_;
 }
 

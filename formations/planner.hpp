@@ -18,21 +18,24 @@ namespace shoal::formations {
 /// files, threads or global state, and does not allocate once it has met its neighbours.
 ///
 /// Own positions are metres east and north in any fixed frame (dead reckoning will do); only their
-/// differences matter, unless the behaviour has a way-point: that is a place of this frame. Plan
-/// and behaviour may be shared by many planners and threads.
+/// differences matter, unless there are obstacles or the behaviour has a way-point: those are
+/// places of this frame. Plan, behaviour and obstacles may be shared by many planners and threads.
 class Planner {
  public:
   /// Throws InputError if the plan has no slot of that name.
+  /// The obstacles must outlive the planner.
   Planner(std::shared_ptr<const Plan> plan, std::shared_ptr<const Behaviour> behaviour,
-          std::string_view own_name, const PingFilterOptions& filter = {});
+          std::string_view own_name, const PingFilterOptions& filter = {},
+          Obstacles obstacles = {});
 
   /// A ping was heard while the vehicle was at `own_position`. Pings must come in time order.
   /// Throws InputError if a number is not finite, the range is negative, the ping is older than the
   /// last one, or the sender's slot is the own one or unknown to the plan.
   void receive(const Ping& ping, const Eigen::Vector2d& own_position);
 
-  /// Plans anew from what was heard so far and returns the target relative to the vehicle.
-  const Target& plan(double time_s, const Eigen::Vector2d& own_position);
+  /// Plans anew from what was heard so far and returns the target relative to the vehicle. Only
+  /// behaviours that give forces use more of the own state than the position.
+  const Target& plan(double time_s, const OwnState& own);
 
   /// The last target, relative to where the vehicle is now. Before the first plan(): zero.
   Eigen::Vector2d target_from(const Eigen::Vector2d& own_position) const {
@@ -47,6 +50,7 @@ class Planner {
   std::shared_ptr<const Behaviour> behaviour_;
   int own_slot_;
   PingFilter filter_;
+  Obstacles obstacles_;
   double last_ping_s_ = -std::numeric_limits<double>::infinity();
   Target target_ = Target::hold(Reason::no_neighbour);
   Eigen::Vector2d target_position_ = Eigen::Vector2d::Zero();

@@ -39,6 +39,14 @@ void PlannerOptions::declare(Options<PlannerOptions>& o) {
            "time between two plans if update is \"tick\"; a multiple of trial.tick_s");
 }
 
+void ArrivalOptions::declare(Options<ArrivalOptions>& o) {
+  using A = ArrivalOptions;
+  o.number("radius_m", &A::radius_m, "m", above(0),
+           "a vehicle has arrived once it was as near to the way-point as this");
+  o.flag("ends_trial", &A::ends_trial,
+         "the trial ends when all vehicles have arrived, if their behaviour has a way-point");
+}
+
 void NodeLoss::declare(Options<NodeLoss>& o) {
   o.number("every_s", &NodeLoss::every_s, "s", at_least(0), "time between two losses");
   o.integer("count", &NodeLoss::count, "", in(0, 1e6), "how many vehicles are lost in all");
@@ -76,8 +84,11 @@ void Scenario::declare(Options<Scenario>& o) {
   o.table("planner", &S::planner, "when targets are renewed");
   o.table("ping_filter", &S::ping_filter, "averaging and forgetting of what was heard");
   o.table("guidance", &S::guidance, "steering to the target, and drifting there");
+  o.table("envelope", &S::envelope, "what is asked for at most where behaviours give forces");
+  o.table("arrival", &S::arrival, "reaching the way-point of a behaviour that has one");
   o.table("ping", &S::ping, "the acoustic channel");
   o.choice("current", &S::current, "the motion of the water");
+  o.tables("obstacle", &S::obstacles, "what vehicles keep clear of, if their behaviour does");
   o.table("energy", &S::energy, "what the consumers draw");
   o.table("faults", &S::faults, "what goes wrong on purpose");
   o.table("quality", &S::quality, "how the formation quality is measured");
@@ -107,6 +118,7 @@ class CrossChecks {
   void run() const {
     times();
     hearing();
+    way();
   }
 
  private:
@@ -175,6 +187,14 @@ class CrossChecks {
       refuse({"ping_filter.rest_s", "ping.period_s"},
              "ping_filter.rest_s must be shorter than ping.period_s, or every ping without id "
              "would begin a new track");
+    }
+  }
+
+  void way() const {
+    if (s_.planner.update == PlannerOptions::Update::ping && s_.behaviour.make()->waypoint()) {
+      refuse({"planner.update", "behaviour.kind"},
+             "behaviour " + s_.behaviour.kind() +
+                 " leads vehicles that hear nobody, too; set planner.update = \"tick\"");
     }
   }
 

@@ -8,12 +8,14 @@
 
 #include "shoal/core/registry.hpp"
 #include "shoal/formations/behaviour.hpp"
+#include "shoal/formations/conditioning.hpp"
 #include "shoal/formations/guidance.hpp"
 #include "shoal/formations/ping_filter.hpp"
 #include "shoal/formations/plan.hpp"
 #include "shoal/scenarios/acoustics/channel.hpp"
 #include "shoal/scenarios/currents/current.hpp"
 #include "shoal/scenarios/energy.hpp"
+#include "shoal/scenarios/obstacles.hpp"
 #include "shoal/scenarios/starts/start.hpp"
 #include "shoal/scenarios/vehicles/swarm.hpp"
 
@@ -44,6 +46,14 @@ struct PlannerOptions {
   double period_s = 0.25;
 
   static void declare(Options<PlannerOptions>& o);
+};
+
+/// Arriving at the way-point of a behaviour that has one.
+struct ArrivalOptions {
+  double radius_m = 60.0;
+  bool ends_trial = false;
+
+  static void declare(Options<ArrivalOptions>& o);
 };
 
 /// Random vehicles lost one after the other: Rypkema 2015, sec. 4.4.
@@ -82,8 +92,11 @@ struct Scenario {
   PlannerOptions planner;
   formations::PingFilterOptions ping_filter;
   formations::DriftGuidance guidance;
+  formations::PerformanceEnvelope envelope;
+  ArrivalOptions arrival;
   PingOptions ping;
   Choice<Current> current{"none"};
+  std::vector<ObstacleOptions> obstacles;
   Energy energy;
   Faults faults;
   QualityOptions quality;

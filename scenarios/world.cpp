@@ -27,6 +27,7 @@ World::World(const Scenario& scenario, int threads, const BehaviourHook& hook)
       random_(static_cast<std::uint64_t>(scenario.trial.seed)),
       plan_(std::make_shared<formations::Plan>(scenario.plan.make()->plan())),
       current_(scenario.current.make()),
+      obstacles_(make_obstacles(scenario.obstacles)),
       channel_(scenario.ping, random_) {
   const auto n = static_cast<std::size_t>(plan_->size());
   if (n < 2) {
@@ -36,13 +37,15 @@ World::World(const Scenario& scenario, int threads, const BehaviourHook& hook)
   const double tick_s = scenario.trial.tick_s;
   current_->require_duration(scenario.trial.duration_s);
   const std::vector<Start> starts = scenario.swarm.start.make()->place(*plan_, random_);
+  behaviour_ = scenario.behaviour.make();
+  waypoint_ = behaviour_->waypoint();
+  require_clear(scenario.obstacles, starts, *plan_, waypoint_);
   swarm_ = scenario.swarm.vehicle.make()->launch(starts, scenario.energy, random_, tick_s);
 
-  std::shared_ptr<const formations::Behaviour> behaviour = scenario.behaviour.make();
-  if (hook) behaviour = hook(std::move(behaviour), *plan_);
+  if (hook) behaviour_ = hook(std::move(behaviour_), *plan_);
   for (std::size_t i = 0; i < n; ++i) {
-    planners_.emplace_back(plan_, behaviour, plan_->name(static_cast<int>(i)),
-                           scenario.ping_filter);
+    planners_.emplace_back(plan_, behaviour_, plan_->name(static_cast<int>(i)),
+                           scenario.ping_filter, obstacles_);
   }
   guidance_.resize(n);
   commands_.resize(n);
@@ -52,6 +55,12 @@ World::World(const Scenario& scenario, int threads, const BehaviourHook& hook)
   v_m_s_.resize(n);
   logbooks_.resize(n);
   lost_s_.assign(n, -1.0);
+  arrived_s_.assign(n, -1.0);
+  if (scenario.ping.carries_state) {
+    const double farthest_s = scenario.ping.range_m / scenario.ping.sound_speed_m_s + tick_s;
+    reports_kept_ = static_cast<std::size_t>(farthest_s / scenario.ping.period_s) + 2;
+    reports_.resize(n * reports_kept_);
+  }
 
   end_tick_ = ticks_of(scenario.trial.duration_s, tick_s, "trial.duration_s");
   guidance_ticks_ = ticks_of(scenario.guidance.period_s, tick_s, "guidance.period_s");
@@ -92,6 +101,7 @@ void World::run(std::span<Observer* const> observers) {
   const std::size_t blocks = (size() + block_size - 1) / block_size;
 
   while (true) {
+    if (waypoint_ && scenario_.arrival.ends_trial && all_arrived()) end_tick_ = tick_;
     lose_vehicles();
     send_pings();
     for (std::size_t k = 0; k < looks.size(); ++k) {
@@ -168,7 +178,8 @@ void World::send_pings() {
                             swarm_->depth_m[i],
                             time_s(),
                             static_cast<std::uint32_t>(i),
-                            static_cast<std::uint32_t>(logbooks_[i].pings_sent)};
+                            static_cast<std::uint32_t>(logbooks_[i].pings_sent),
+                            reported(i)};
     const double far = scenario_.ping.range_m + 2.0;
     grid_.near(ping.x_m, ping.y_m, [&](std::size_t receiver) {
       if (receiver == i || lost(receiver)) return;
@@ -184,6 +195,37 @@ void World::send_pings() {
   }
 }
 
+const formations::OwnState* World::reported(std::size_t sender) {
+  if (reports_kept_ == 0) return nullptr;
+  const auto emission = static_cast<std::size_t>(logbooks_[sender].pings_sent);
+  formations::OwnState& report = reports_[sender * reports_kept_ + emission % reports_kept_];
+  report = swarm_->own_state(sender);
+  return &report;
+}
+
+bool World::all_arrived() const {
+  for (std::size_t i = 0; i < size(); ++i) {
+    if (!lost(i) && arrived_s_[i] < 0.0) return false;
+  }
+  return true;
+}
+
+void World::note_arrivals(std::size_t first, std::size_t last, double time_s) {
+  for (std::size_t i = first; i < last; ++i) {
+    if (arrived_s_[i] >= 0.0 || lost(i)) continue;
+    const Eigen::Vector2d place(swarm_->x_m[i], swarm_->y_m[i]);
+    if ((place - *waypoint_).norm() <= scenario_.arrival.radius_m) arrived_s_[i] = time_s;
+  }
+}
+
+void World::guide(std::size_t i) {
+  const std::optional<Eigen::Vector2d>& force = planners_[i].last_target().force_m_s2;
+  commands_[i] = force ? formations::commanded(*force, swarm_->own_state(i),
+                                               scenario_.guidance.period_s, scenario_.envelope)
+                       : scenario_.guidance.command(
+                             planners_[i].target_from(swarm_->own_position(i)), guidance_[i]);
+}
+
 void World::listen_and_plan(std::size_t i, std::int64_t tick) {
   const double now = static_cast<double>(tick) * scenario_.trial.tick_s;
   bool due = planner_ticks_ > 0 ? tick % planner_ticks_ == 0 : tick >= forget_tick_[i];
@@ -191,11 +233,13 @@ void World::listen_and_plan(std::size_t i, std::int64_t tick) {
     thread_local std::vector<Reception> received;
     received.clear();
     channel_.listen(*swarm_, i, now, scenario_.trial.tick_s, hydrophones_[i], received);
-    for (const Reception& r : received) planners_[i].receive(r.ping, r.own_position);
+    const Eigen::Vector2d error =
+        swarm_->own_position(i) - Eigen::Vector2d(swarm_->x_m[i], swarm_->y_m[i]);
+    for (const Reception& r : received) planners_[i].receive(r.ping, r.own_position + error);
     if (planner_ticks_ == 0) due |= !received.empty();
   }
   if (due) {
-    const formations::Target& target = planners_[i].plan(now, {swarm_->x_m[i], swarm_->y_m[i]});
+    const formations::Target& target = planners_[i].plan(now, swarm_->own_state(i));
     // Who hears nobody any more must notice without being told.
     forget_tick_[i] =
         target.reason == formations::Reason::no_neighbour ? never : tick + forget_ticks_;
@@ -220,9 +264,7 @@ void World::run_block(std::size_t first, std::size_t last, std::int64_t until) {
     for (std::size_t i = first; i < last; ++i) {
       if (lost(i)) continue;
       if (tick >= wake_tick_[i]) listen_and_plan(i, tick);
-      if (!guided) continue;
-      const Eigen::Vector2d own(swarm.x_m[i], swarm.y_m[i]);
-      commands_[i] = scenario_.guidance.command(planners_[i].target_from(own), guidance_[i]);
+      if (guided) guide(i);
     }
 
     current_->sample(static_cast<double>(tick) * tick_s, x, y, u, v);
@@ -244,6 +286,7 @@ void World::run_block(std::size_t first, std::size_t last, std::int64_t until) {
       log.thrust_distance_m += swarm.speed_m_s[i] >= moving_m_s ? path : 0.0;
       log.thrusting_s += commands_[i].thrust ? tick_s : 0.0;
     }
+    if (waypoint_) note_arrivals(first, last, static_cast<double>(tick + 1) * tick_s);
   }
 }
 

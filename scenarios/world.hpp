@@ -48,7 +48,8 @@ class World {
   ~World();
 
   /// Runs the mission to its end. Each observer looks at time zero, then at its own interval, and
-  /// last at the end of the mission if that is one of its instants.
+  /// last at the end of the mission if that is one of its instants. The end is after
+  /// trial.duration_s, or earlier where arrival ends the trial.
   void run(std::span<Observer* const> observers);
 
   double time_s() const { return static_cast<double>(tick_) * scenario_.trial.tick_s; }
@@ -56,11 +57,18 @@ class World {
   const Scenario& scenario() const { return scenario_; }
   const formations::Plan& plan() const { return *plan_; }
   const Swarm& swarm() const { return *swarm_; }
+  const std::vector<std::shared_ptr<const formations::Obstacle>>& obstacles() const {
+    return obstacles_;
+  }
+  const formations::Behaviour& behaviour() const { return *behaviour_; }
   bool lost(std::size_t i) const { return lost_s_[i] >= 0.0; }
   std::size_t lost_count() const { return lost_count_; }
   const Logbook& logbook(std::size_t i) const { return logbooks_[i]; }
   const formations::Planner& planner(std::size_t i) const { return planners_[i]; }
   const formations::Command& command(std::size_t i) const { return commands_[i]; }
+
+  /// When a vehicle was first at the behaviour's way-point, or negative.
+  double arrived_s(std::size_t i) const { return arrived_s_[i]; }
 
   double propulsion_wh(std::size_t i) const;
   double hotel_wh(std::size_t i) const;
@@ -72,13 +80,22 @@ class World {
   void send_pings();
   void run_block(std::size_t first, std::size_t last, std::int64_t until);
   void listen_and_plan(std::size_t i, std::int64_t tick);
+  void guide(std::size_t i);
+  void note_arrivals(std::size_t first, std::size_t last, double time_s);
+  bool all_arrived() const;
   std::int64_t emission_tick(std::size_t i, std::int64_t emission) const;
+
+  /// Keeps what a ping says of its sender until it has arrived.
+  const formations::OwnState* reported(std::size_t sender);
 
   Scenario scenario_;
   int threads_;
   RandomStreams random_;
   std::shared_ptr<const formations::Plan> plan_;
   std::unique_ptr<Current> current_;
+  std::vector<std::shared_ptr<const formations::Obstacle>> obstacles_;
+  std::shared_ptr<const formations::Behaviour> behaviour_;
+  std::optional<Eigen::Vector2d> waypoint_;
   Channel channel_;
   std::unique_ptr<Swarm> swarm_;
 
@@ -91,6 +108,9 @@ class World {
   std::vector<double> u_m_s_, v_m_s_;
   std::vector<Logbook> logbooks_;
   std::vector<double> lost_s_;  // when a vehicle was lost, or negative
+  std::vector<double> arrived_s_;
+  std::vector<formations::OwnState> reports_;  // the last `reports_kept_` of each vehicle
+  std::size_t reports_kept_ = 0;
   std::size_t lost_count_ = 0;
   std::vector<std::int64_t> next_emission_;  // tick
   GridIndex grid_;

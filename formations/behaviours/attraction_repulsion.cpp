@@ -137,7 +137,7 @@ class AttractionRepulsion final : public Behaviour {
     for (const Neighbour& n : seen.neighbours) {
       if (n.position.norm() <= options_.contact_rangeout_m) in_range.push_back(n);
     }
-    const AttractionRepulsionCost cost = cost_of(in_range, seen.own_position);
+    const AttractionRepulsionCost cost = cost_of(in_range, seen.own.position);
     if (cost.selected.empty()) return std::nullopt;
     return std::optional<solvers::Problem>(std::in_place, Eigen::Vector2d::Zero(), cost);
   }

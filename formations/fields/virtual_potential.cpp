@@ -26,9 +26,8 @@ std::array<Eigen::Vector2d, 4> FormationCell::vertices(const Agent& middle) cons
 }
 
 VirtualPotential::VirtualPotential(const VirtualPotentialGains& gains,
-                                   const Eigen::Vector2d& waypoint,
-                                   std::vector<std::shared_ptr<const Obstacle>> obstacles)
-    : gains_(gains), waypoint_(waypoint), obstacles_(std::move(obstacles)) {}
+                                   const Eigen::Vector2d& waypoint, Obstacles obstacles)
+    : gains_(gains), waypoint_(waypoint), obstacles_(obstacles) {}
 
 PlaneValue VirtualPotential::potential(const Eigen::Vector2d& place,
                                        std::span<const Agent> others) const {

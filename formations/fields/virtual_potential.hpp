@@ -2,10 +2,8 @@
 
 #include <Eigen/Core>
 #include <array>
-#include <memory>
 #include <span>
 #include <utility>
-#include <vector>
 
 #include "shoal/core/options.hpp"
 #include "shoal/formations/fields/contours.hpp"
@@ -54,11 +52,11 @@ struct VirtualPotentialGains {
 /// takes from it: Barisic et al. 2011, eq. 17-29.
 ///
 /// All places in metres, in the frame of the own positions. Immutable, thread-safe, does not
-/// allocate after its construction.
+/// allocate. Refers to the obstacles, which must outlive it.
 class VirtualPotential {
  public:
   VirtualPotential(const VirtualPotentialGains& gains, const Eigen::Vector2d& waypoint,
-                   std::vector<std::shared_ptr<const Obstacle>> obstacles);
+                   Obstacles obstacles);
 
   /// The sum of all potentials, m2/s2.
   PlaneValue potential(const Eigen::Vector2d& place, std::span<const Agent> others) const;
@@ -76,7 +74,7 @@ class VirtualPotential {
  private:
   VirtualPotentialGains gains_;
   Eigen::Vector2d waypoint_;
-  std::vector<std::shared_ptr<const Obstacle>> obstacles_;
+  Obstacles obstacles_;
 };
 
 /// The sum of all potentials as an objective of two unknowns, x and y (m), relative to an origin.

@@ -35,6 +35,9 @@ void PingOptions::declare(Options<PingOptions>& o) {
            "chance that a receiver misses a ping");
   o.flag("identified", &P::identified,
          "pings carry the sender's id; without, neighbours are told apart by where they are");
+  o.flag("carries_state", &P::carries_state,
+         "pings carry the sender's position, velocity and heading, as it believes them; they are "
+         "then taken instead of what was measured (Barisic et al. 2011, sec. 3)");
 }
 
 bool Channel::loses(const PingUnderway& ping, std::uint32_t receiver) const {
@@ -91,6 +94,7 @@ formations::Ping Channel::measured(const PingUnderway& ping, std::uint32_t recei
   heard.elevation_rad = std::atan2(-to_sender.z(), to_sender.head<2>().norm()) +
                         radians(options_.elevation_sd_deg) * elevation_noise;
   heard.slot = options_.identified ? static_cast<int>(ping.sender) : formations::anonymous;
+  if (ping.state) heard.state = *ping.state;
   return heard;
 }
 

@@ -25,6 +25,7 @@ struct PingOptions {
   double minimum_range_m = 0.5;
   double loss_probability = 0.0;
   bool identified = true;
+  bool carries_state = false;
 
   static void declare(Options<PingOptions>& o);
 };
@@ -35,6 +36,8 @@ struct PingUnderway {
   double emitted_s;
   std::uint32_t sender;
   std::uint32_t emission;  ///< how many pings the sender had sent before
+  /// What it says of the sender, or nothing; whoever sends it keeps it until it has arrived.
+  const formations::OwnState* state = nullptr;
 };
 
 /// What one receiver is about to hear, and where it was when that was last looked at.

@@ -69,6 +69,20 @@ class DrifterSwarm final : public Swarm {
     }
   }
 
+  formations::OwnState own_state(std::size_t i) const override {
+    const Motor& motor = motors_[i];
+    const double turning = motor.on ? motor.heading_thrust * turn_rate_ : 0.0;
+    formations::OwnState own{.position = {x_m[i], y_m[i]},
+                 .heading_rad = heading_rad[i],
+                 .speed_m_s = speed_m_s[i],
+                 .turn_rate_rad_s = turning + motor.noise_rad_s};
+    if (speed_m_s[i] != 0.0) {
+      own.velocity = speed_m_s[i] * Eigen::Vector2d(std::cos(heading_rad[i]),
+                                                    std::sin(heading_rad[i]));
+    }
+    return own;
+  }
+
  private:
   /// A turn of the plane.
   struct Turn {
@@ -171,7 +185,7 @@ class DrifterSwarm final : public Swarm {
 
     for (std::int64_t k = 0; k < steps_; ++k) {
       if (until_control-- == 0) {
-        control(motor, course - heading, wanted);
+        control(motor, course - heading, wanted, command.acceleration_m_s2);
         half = Turn(0.5 * dt * rate());
         until_control = controller_steps_ - 1;
       }
@@ -191,8 +205,9 @@ class DrifterSwarm final : public Swarm {
     propulsion_j[i] += energy;
   }
 
-  // PD on the heading; the speed is feed-forward from the drag map, and fades with heading error.
-  void control(Motor& motor, double error_rad, double wanted_m_s) const {
+  // PD on the heading; the speed is feed-forward from the drag map (and from the mass, if an
+  // acceleration is asked for), and fades with heading error.
+  void control(Motor& motor, double error_rad, double wanted_m_s, double wanted_m_s2) const {
     const double error = wrapped(error_rad);
     const auto window = static_cast<std::size_t>(type_.heading_differences);
     const std::size_t size = motor.errors.size();
@@ -206,6 +221,10 @@ class DrifterSwarm final : public Swarm {
     motor.heading_thrust = std::clamp(percent / 100.0, -1.0, 1.0);
     const double aligned = std::max(0.0, 1.0 - std::abs(degrees(error)) / type_.heading_limit_deg);
     motor.surge_n = aligned * drag(std::min(wanted_m_s, type_.max_speed_m_s));
+    if (wanted_m_s2 != 0.0) {
+      motor.surge_n = std::clamp(motor.surge_n + aligned * type_.mass_kg * wanted_m_s2, 0.0,
+                                 drag(type_.max_speed_m_s));
+    }
   }
 
   // drag_n v^2 at the knots of the drag map, linear between them: the chord of v^2. v >= 0.

@@ -8,10 +8,13 @@
 #include "shoal/core/random.hpp"
 #include "shoal/core/registry.hpp"
 #include "shoal/formations/guidance.hpp"
+#include "shoal/formations/neighbourhood.hpp"
 #include "shoal/scenarios/energy.hpp"
 #include "shoal/scenarios/starts/start.hpp"
 
 namespace shoal::scenarios {
+
+struct Estimate;
 
 /// The vehicles of a swarm, all of one type, in contiguous arrays.
 class Swarm {
@@ -26,6 +29,15 @@ class Swarm {
   virtual ~Swarm() = default;
 
   std::size_t size() const { return x_m.size(); }
+
+  /// Where a vehicle believes that it is, and how it moves: the truth, unless its type estimates.
+  virtual Eigen::Vector2d own_position(std::size_t i) const { return {x_m[i], y_m[i]}; }
+  virtual formations::OwnState own_state(std::size_t i) const = 0;
+  /// The last sample of its estimator, if its type has one.
+  virtual const Estimate* estimate(std::size_t i) const {
+    (void)i;
+    return nullptr;
+  }
 
   /// Advances vehicles [first, last) from the given tick to the next one.
   ///

@@ -38,6 +38,8 @@ scenarios::Scenario scenario(const std::string& behaviour) {
   scenarios::apply_set(root, "behaviour.kind=" + behaviour);
   scenarios::apply_set(root, "trial.duration_s=300");
   scenarios::apply_set(root, "behaviour.rigid_registration.ownship_weight=0.1");
+  const auto made = Registry<formations::Behaviour>::instance().make(behaviour, {}, "");
+  if (made->waypoint()) scenarios::apply_set(root, "planner.update=tick");
   return scenarios::read_scenario(root);
 }
 
@@ -54,12 +56,16 @@ void expect_same(const Corpus& a, const Corpus& b) {
   for (std::size_t k = 0; k < a.situations.size(); ++k) {
     const Situation &left = a.situations[k], &right = b.situations[k];
     ASSERT_EQ(left.own_slot, right.own_slot);
-    ASSERT_EQ(left.own_position, right.own_position);
+    ASSERT_EQ(left.own.position, right.own.position);
+    ASSERT_EQ(left.own.velocity, right.own.velocity);
+    ASSERT_EQ(left.own.heading_rad, right.own.heading_rad);
     ASSERT_EQ(left.neighbours.size(), right.neighbours.size());
     for (std::size_t i = 0; i < left.neighbours.size(); ++i) {
       ASSERT_EQ(left.neighbours[i].position, right.neighbours[i].position);
       ASSERT_EQ(left.neighbours[i].age_s, right.neighbours[i].age_s);
       ASSERT_EQ(left.neighbours[i].slot, right.neighbours[i].slot);
+      ASSERT_EQ(left.neighbours[i].velocity, right.neighbours[i].velocity);
+      ASSERT_EQ(left.neighbours[i].heading_rad, right.neighbours[i].heading_rad);
     }
   }
 }
@@ -67,6 +73,10 @@ void expect_same(const Corpus& a, const Corpus& b) {
 TEST_F(Corpora, PoseTheSameProblemsAgainBitForBitAfterAFile) {
   for (const std::string& behaviour : Registry<formations::Behaviour>::instance().names()) {
     const Corpus corpus = recorded(scenario(behaviour));
+    if (behaviour == "virtual_potential") {
+      EXPECT_TRUE(corpus.situations.empty());  // its answer is a gradient, not that of a problem
+      continue;
+    }
     ASSERT_GT(corpus.situations.size(), 100u) << behaviour;
     write_corpus(corpus, folder / "c.jsonl");
     const Corpus again = read_corpus(folder / "c.jsonl");
@@ -74,8 +84,9 @@ TEST_F(Corpora, PoseTheSameProblemsAgainBitForBitAfterAFile) {
 
     const auto before = scenario(behaviour).behaviour.make();
     const auto after = again.experiments[0].make_behaviour();
+    const auto sea = scenarios::make_obstacles(again.experiments[0].obstacles);
     for (const Situation& s : again.situations) {
-      const formations::Neighbourhood seen{s.neighbours, s.own_slot, s.own_position};
+      const formations::Neighbourhood seen{s.neighbours, s.own_slot, s.own, sea};
       const formations::Target a = before->step(seen, corpus.experiments[0].plan);
       const formations::Target b = after->step(seen, again.experiments[0].plan);
       ASSERT_EQ(a.position, b.position) << behaviour;
@@ -111,9 +122,9 @@ TEST_F(Corpora, AreRefusedWithTheLineThatIsWrong) {
     }
     return "";
   };
-  const std::string good =
-      R"({"scenario":"s","behaviour":{"kind":"rigid_registration"},"plan":[["a",0,0],["b",9,0]]})"
-      "\n";
+  const std::string good = R"({"scenario":"s","behaviour":{"kind":"rigid_registration"},)"
+                           R"("plan":[["a",0,0],["b",9,0]],"obstacles":[]})"
+                           "\n";
   const std::string name = (folder / "bad.jsonl").string();
   const std::string no_line = "this is no line of a corpus; shoal run --record-problems writes one";
   EXPECT_EQ(complaint(written("")), name + ": holds no problem");
@@ -121,12 +132,15 @@ TEST_F(Corpora, AreRefusedWithTheLineThatIsWrong) {
   EXPECT_EQ(complaint(written(good + "{\"experiment\":0}\n")), name + ":2: " + no_line);
   EXPECT_EQ(complaint(written(good + "nonsense\n")), name + ":2: " + no_line);
   EXPECT_EQ(complaint(written("[1, 2]\n")), name + ":1: " + no_line);
-  EXPECT_EQ(complaint(written(good + R"({"experiment":1,"slot":0,"at":[0,0],"heard":[]})")),
-            name + ":2: there is no experiment 1 above this line");
-  EXPECT_EQ(complaint(written(good + R"({"experiment":0,"slot":2,"at":[0,0],"heard":[]})")),
-            name + ":2: the plan has no slot 2");
   EXPECT_EQ(
-      complaint(written(good + R"({"experiment":0,"slot":0,"at":[0,0],"heard":[[1,2,3,-2]]})")),
+      complaint(written(good + R"({"experiment":1,"slot":0,"own":[0,0,0,0,0,0,0],"heard":[]})")),
+      name + ":2: there is no experiment 1 above this line");
+  EXPECT_EQ(
+      complaint(written(good + R"({"experiment":0,"slot":2,"own":[0,0,0,0,0,0,0],"heard":[]})")),
+      name + ":2: the plan has no slot 2");
+  EXPECT_EQ(
+      complaint(written(
+          good + R"({"experiment":0,"slot":0,"own":[0,0,0,0,0,0,0],"heard":[[1,2,3,-2,0,0,0]]})")),
       name + ":2: the plan has no slot -2");
   EXPECT_EQ(complaint(folder / "nowhere"), "cannot open " + (folder / "nowhere").string());
 }

@@ -215,7 +215,7 @@ TEST(AttractionRepulsion, AnswersWithAFiniteTargetWhateverIsCombined) {
           const Plan plan = square_lattice(4, 3, 300.0);
           for (int own = 0; own < plan.size(); own += 5) {
             const Neighbours seen = heard(plan, own, rotation(own), {40.0 - 9.0 * own, 30});
-            const Target target = made->step({seen, own, {70, -20}}, plan);
+            const Target target = made->step({seen, own, {.position = {70, -20}}}, plan);
             EXPECT_TRUE(target.position.allFinite() && std::isfinite(target.cost))
                 << potential << ", " << selection << ", " << cohesion << ", " << solver;
             EXPECT_EQ(target.reason, Reason::placed)
@@ -276,8 +276,8 @@ TEST(AttractionRepulsion, IsDrawnToAWaypointInTheFrameOfTheOwnPositions) {
                                      {"cohesion.waypoint.weight", 1e-4},
                                      {"combination", "mean"}});
   const Neighbours lone = at({{0, 300}});
-  const Target from_west = made->step({lone, 0, {0, 0}}, unused);
-  const Target from_east = made->step({lone, 0, {10'000, 0}}, unused);
+  const Target from_west = made->step({lone, 0, {.position = {0, 0}}}, unused);
+  const Target from_east = made->step({lone, 0, {.position = {10'000, 0}}}, unused);
   EXPECT_GT(from_west.position.x(), 10.0);
   EXPECT_LT((from_east.position - Vector2d(-from_west.position.x(), from_west.position.y())).norm(),
             0.01);

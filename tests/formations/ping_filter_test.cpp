@@ -102,6 +102,25 @@ TEST(PingFilter, RemembersNothingOfAForgottenNeighbourThatReturns) {
   expect_at(only(filter, 100.0).position, 300.0, 0.0);
 }
 
+TEST(PingFilter, TakesASenderAtItsWordIfThePingCarriesItsState) {
+  PingFilter filter;
+  const OwnState said{.position = {100, 50}, .velocity = {1.0, -0.5}, .heading_rad = 0.3};
+  filter.receive({.time_s = 10.0, .range_m = 7.0, .bearing_rad = 2.0, .slot = 1, .state = said},
+                 {20, 30});
+  const Neighbour now = filter.neighbours(12.0, {25, 30})[0];
+  EXPECT_EQ(now.position, Eigen::Vector2d(100 + 2.0 - 25, 50 - 1.0 - 30))
+      << "and goes on as it did";
+  EXPECT_EQ(now.velocity, said.velocity);
+  EXPECT_EQ(now.heading_rad, 0.3);
+  EXPECT_EQ(now.age_s, 2.0);
+
+  // A later ping without a state is measured again.
+  filter.receive({.time_s = 13.0, .range_m = 7.0, .bearing_rad = 2.0, .slot = 1}, {25, 30});
+  const Neighbour measured = filter.neighbours(13.0, {25, 30})[0];
+  EXPECT_NEAR(measured.position.norm(), 7.0, 1e-9);
+  EXPECT_EQ(measured.velocity, Eigen::Vector2d(0, 0));
+}
+
 TEST(PingFilter, TellsTheAgeOfTheLastPing) {
   PingFilter filter;
   filter.receive(ping(0.0, 100.0, 0.0), origin);

@@ -51,7 +51,7 @@ const Vector2d start(5000, -2000);
 TEST(Planner, TurnsPingsIntoATarget) {
   Engineer engineer(cross);
   engineer.hear(heard(cross, 0, {}, {-20, 0}), 0.0, start);
-  const Target& target = engineer.planner.plan(0.5, start);
+  const Target& target = engineer.planner.plan(0.5, {.position = start});
   EXPECT_EQ(target.reason, Reason::placed);
   EXPECT_LT((target.position - Vector2d(16, 0)).norm(), 1e-9);  // 4 of 5 weights
   EXPECT_EQ(&target, &engineer.planner.last_target());
@@ -60,7 +60,7 @@ TEST(Planner, TurnsPingsIntoATarget) {
 TEST(Planner, RefersTheTargetToWhereTheVehicleIsNow) {
   Engineer engineer(cross);
   engineer.hear(heard(cross, 0, {}, {-20, 0}), 0.0, start);
-  engineer.planner.plan(0.5, start);
+  engineer.planner.plan(0.5, {.position = start});
   EXPECT_LT((engineer.planner.target_from(start) - Vector2d(16, 0)).norm(), 1e-9);
   EXPECT_LT((engineer.planner.target_from(start + Vector2d(16, 3)) - Vector2d(0, -3)).norm(), 1e-9);
 }
@@ -69,7 +69,7 @@ TEST(Planner, TellsTheBehaviourWhereTheVehicleIs) {
   struct Listener final : Behaviour {
     mutable Vector2d told = Vector2d::Zero();
     Target step(const Neighbourhood& seen, const Plan&) const override {
-      told = seen.own_position;
+      told = seen.own.position;
       return Target::hold(Reason::no_neighbour);
     }
     void pose(const Neighbourhood&, const Plan&, ProblemViewer&) const override {}
@@ -77,7 +77,7 @@ TEST(Planner, TellsTheBehaviourWhereTheVehicleIs) {
   };
   const auto listener = std::make_shared<const Listener>();
   Planner planner(std::make_shared<const Plan>(cross), listener, "v0");
-  planner.plan(0.0, start);
+  planner.plan(0.0, {.position = start});
   EXPECT_EQ(listener->told, start);
 }
 
@@ -85,7 +85,7 @@ TEST(Planner, PlansFromWhereTheVehicleIsNow) {
   Engineer engineer(cross);
   engineer.hear(heard(cross, 0, {}, {-20, 0}), 0.0, start);
   // Having come 10 m of the way, 10 m are left: 4 of 5 weights see them.
-  const Target target = engineer.planner.plan(10.0, start + Vector2d(10, 0));
+  const Target target = engineer.planner.plan(10.0, {.position = start + Vector2d(10, 0)});
   EXPECT_LT((target.position - Vector2d(8, 0)).norm(), 1e-9);
 }
 
@@ -94,8 +94,8 @@ TEST(Planner, HoldsBeforeItHearsAnybodyAndAfterAllHaveGone) {
   EXPECT_EQ(engineer.planner.last_target().reason, Reason::no_neighbour);
   EXPECT_EQ(engineer.planner.target_from(start), Vector2d(0, 0));
   engineer.hear(heard(cross, 0, {}, {-20, 0}), 0.0, start);
-  EXPECT_FALSE(engineer.planner.plan(0.0, start).held());
-  EXPECT_EQ(engineer.planner.plan(1000.0, start).reason, Reason::no_neighbour);
+  EXPECT_FALSE(engineer.planner.plan(0.0, {.position = start}).held());
+  EXPECT_EQ(engineer.planner.plan(1000.0, {.position = start}).reason, Reason::no_neighbour);
   // Held: drift freely wherever the current takes the vehicle.
   EXPECT_EQ(engineer.planner.target_from(start + Vector2d(50, 0)), Vector2d(0, 0));
 }
@@ -133,10 +133,10 @@ TEST(Planner, RefusesPingsThatCannotBe) {
 TEST(Planner, ForgetsNothingOfARefusedPing) {
   Engineer engineer(cross);
   engineer.hear(heard(cross, 0, {}, {-20, 0}), 0.0, start);
-  const Vector2d before = engineer.planner.plan(1.0, start).position;
+  const Vector2d before = engineer.planner.plan(1.0, {.position = start}).position;
   EXPECT_THROW(engineer.planner.receive({.time_s = 1.0, .range_m = -1.0, .slot = 1}, start),
                InputError);
-  EXPECT_EQ(engineer.planner.plan(1.0, start).position, before);
+  EXPECT_EQ(engineer.planner.plan(1.0, {.position = start}).position, before);
 }
 
 // Twelve neighbours of a lattice, a ping of each every 30 s.
@@ -154,7 +154,7 @@ TEST_P(PlannerOf, AllocatesNothingInTheSteadyState) {
     const Vector2d drift(-0.3, 0.2);  // the others move less than the own vehicle
     for (Neighbour& n : seen) n.position += drift;
     engineer.hear(seen, time_s, own);
-    EXPECT_EQ(engineer.planner.plan(time_s + 0.5, own).reason, Reason::placed);
+    EXPECT_EQ(engineer.planner.plan(time_s + 0.5, {.position = own}).reason, Reason::placed);
   };
   for (int i = 0; i < 8; ++i) round(i);  // the filters are full
   const std::size_t before = shoal::tests::allocations();

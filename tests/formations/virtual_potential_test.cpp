@@ -85,13 +85,13 @@ std::shared_ptr<const Obstacle> shared(auto shape) {
 /// A way-point behind an ellipse and a rectangle, and two other agents.
 struct Sea {
   Vector2d waypoint{100, 10};
+  std::vector<std::shared_ptr<const Obstacle>> obstacles{shared(Ellipse({40, 0}, 15, 6, 0.4)),
+                                                         shared(Rectangle({10, 60}, 20, 5, -0.2))};
   VirtualPotential potential = made({});
   std::vector<Agent> others{{{-40, 5}, 0.3}, {{-20, -30}, 2.0}};
 
   VirtualPotential made(const VirtualPotentialGains& gains) const {
-    return {gains,
-            waypoint,
-            {shared(Ellipse({40, 0}, 15, 6, 0.4)), shared(Rectangle({10, 60}, 20, 5, -0.2))}};
+    return {gains, waypoint, obstacles};
   }
 };
 
@@ -134,9 +134,10 @@ TEST(VirtualPotential, TurnsWithTheWorld) {
   const Transform2 T = Transform2::from_angle(1.1, {-300, 70});
   VirtualPotentialGains gains;
   gains.cell.axes = FormationCell::Axes::heading;
-  const VirtualPotential here(gains, {100, 10}, {shared(Ellipse({40, 0}, 15, 6, 0.4))});
-  const VirtualPotential there(gains, T * Vector2d(100, 10),
-                               {shared(Ellipse(T * Vector2d(40, 0), 15, 6, 0.4 + 1.1))});
+  const auto ellipse = shared(Ellipse({40, 0}, 15, 6, 0.4));
+  const auto ellipse_turned = shared(Ellipse(T * Vector2d(40, 0), 15, 6, 0.4 + 1.1));
+  const VirtualPotential here(gains, {100, 10}, {&ellipse, 1});
+  const VirtualPotential there(gains, T * Vector2d(100, 10), {&ellipse_turned, 1});
   const std::vector<Agent> others{{{-40, 5}, 0.3}};
   const std::vector<Agent> turned{{T * others[0].position, 0.3 + 1.1}};
   const Vector2d velocity(1.0, -0.2);
@@ -330,7 +331,7 @@ TEST(VirtualPotentialReference, AgreesWithAnotherImplementation) {
     VirtualPotentialGains gains;
     const VirtualPotential waypoint_only(gains, w, {});
     gains.waypoint.pull_m_s2 = 0.0;
-    const VirtualPotential obstacle_only(gains, w, {obstacle});
+    const VirtualPotential obstacle_only(gains, w, {&obstacle, 1});
     const auto close = [&](const Vector2d& got, const std::string& name) {
       const Vector2d expected = pair(name + "_x", name + "_y");
       EXPECT_LT((got - expected).norm(), 1e-9) << table.line(row) << name;

@@ -54,7 +54,7 @@ int main() {
                               auv.position);
         }
       }
-      for (Auv& auv : auvs) auv.planner.plan(second, auv.position);
+      for (Auv& auv : auvs) auv.planner.plan(second, {.position = auv.position});
     }
     for (Auv& auv : auvs) {  // at most 1 m/s
       const Vector2d way = auv.planner.target_from(auv.position);

@@ -13,6 +13,7 @@ constexpr double tick_s = 0.25;
 
 struct Still final : Swarm {
   using Swarm::Swarm;
+  formations::OwnState own_state(std::size_t) const override { return {}; }
   void advance(std::size_t, std::size_t, std::int64_t, std::span<const formations::Command>,
                std::span<const double>, std::span<const double>) override {}
 };

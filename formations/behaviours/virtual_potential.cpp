@@ -1,0 +1,156 @@
+#include <cmath>
+#include <memory>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "shoal/formations/behaviour.hpp"
+#include "shoal/formations/fields/virtual_potential.hpp"
+#include "shoal/solvers/solver.hpp"
+
+namespace shoal::formations {
+namespace {
+
+/// Where all vehicles are to go, and what draws and repels them on the way.
+struct VirtualPotentialOptions {
+  double waypoint_x_m = 500.0;
+  double waypoint_y_m = 0.0;
+  double contact_rangeout_m = 200.0;
+  double lead_s = 0.0;
+  VirtualPotentialGains gains;
+
+  static void declare(Options<VirtualPotentialOptions>& o) { declare_in(o); }
+
+  /// Also for options that are made of these and others.
+  template <class Made>
+  static void declare_in(Options<Made>& o) {
+    o.number("waypoint_x_m", &Made::waypoint_x_m, "m", {},
+             "east, in the frame of the own positions");
+    o.number("waypoint_y_m", &Made::waypoint_y_m, "m", {}, "north, in that frame");
+    o.number("contact_rangeout_m", &Made::contact_rangeout_m, "m", above(0),
+             "vehicles further away are ignored");
+    o.number("lead_s", &Made::lead_s, "s", at_least(0),
+             "forces are those of where all vehicles will be so much later if they go on as they "
+             "do. A hull's course follows its rudder by some seconds, and a force that comes late "
+             "feeds oscillations in the cell; a lead of that time damps them");
+    o.table("gains", static_cast<VirtualPotentialGains Made::*>(&Made::gains),
+            "strengths and reaches of the potentials");
+  }
+
+  Eigen::Vector2d waypoint() const { return {waypoint_x_m, waypoint_y_m}; }
+  Eigen::Vector2d place(const OwnState& own) const { return own.position + lead_s * own.velocity; }
+};
+
+/// The others as the potential takes them: their places in the frame of the own positions.
+///
+/// The heading of a neighbour that does not tell it is taken as east, along x.
+std::span<const Agent> agents_in_range(const Neighbourhood& seen, double range_m, double lead_s) {
+  thread_local std::vector<Agent> agents;
+  agents.clear();
+  for (const Neighbour& n : seen.neighbours) {
+    if (n.position.norm() > range_m) continue;
+    agents.push_back({seen.own.position + n.position + lead_s * n.velocity, n.heading_rad});
+  }
+  return agents;
+}
+
+/// The total control force of the virtual potential: Barisic et al. 2011, eq. 5, 21, 25.
+class VirtualPotentialForce final : public Behaviour {
+ public:
+  explicit VirtualPotentialForce(const VirtualPotentialOptions& options) : options_(options) {}
+
+  bool needs_ids() const override { return false; }
+  std::optional<Eigen::Vector2d> waypoint() const override { return options_.waypoint(); }
+
+  Target step(const Neighbourhood& seen, const Plan&) const override {
+    const VirtualPotential potential(options_.gains, options_.waypoint(), seen.obstacles);
+    const auto others = agents_in_range(seen, options_.contact_rangeout_m, options_.lead_s);
+    const Eigen::Vector2d place = options_.place(seen.own);
+    const Eigen::Vector2d force = potential.force(place, seen.own.velocity, others);
+    const double cost = potential.potential(place, others).value;
+    if (!force.allFinite() || !std::isfinite(cost)) return Target::hold(Reason::solver_failed);
+    return Target::push(force, cost);
+  }
+
+  /// Its force is a gradient, not the answer to a problem.
+  void pose(const Neighbourhood&, const Plan&, ProblemViewer&) const override {}
+
+ private:
+  VirtualPotentialOptions options_;
+};
+
+struct VirtualPotentialStepOptions : VirtualPotentialOptions {
+  double reach_m = 30.0;
+  Choice<solvers::Solver> solver{"newton"};
+
+  static void declare(Options<VirtualPotentialStepOptions>& o) {
+    using S = VirtualPotentialStepOptions;
+    declare_in(o);
+    o.number("reach_m", &S::reach_m, "m", above(0), "no further east, north, west or south");
+    o.choice("solver", &S::solver, "minimises the potential within reach");
+  }
+};
+
+/// The same potential as a local optimisation problem: the minimum within reach is the target, and
+/// the vehicle's guidance steers there. Rotors, which have no potential, and damping, which
+/// guidance does not need, are left out.
+class VirtualPotentialStep final : public Behaviour {
+ public:
+  explicit VirtualPotentialStep(const VirtualPotentialStepOptions& options)
+      : options_(options), solver_(options.solver.make()) {
+    const VirtualPotential open(options.gains, options.waypoint(), {});
+    if (const auto why = solver_->refuses(problem(open, {}, {}))) {
+      const ChoiceSetting& setting = options.solver.setting();
+      const std::string path = setting.path.empty() ? "solver" : setting.path;
+      throw InputError(setting.options().origin,
+                       path + "." + options.solver.kind() + ": " + *why +
+                           "; choose a solver for two unknowns with bounds");
+    }
+  }
+
+  bool needs_ids() const override { return false; }
+  std::optional<Eigen::Vector2d> waypoint() const override { return options_.waypoint(); }
+
+  Target step(const Neighbourhood& seen, const Plan&) const override {
+    const VirtualPotential potential(options_.gains, options_.waypoint(), seen.obstacles);
+    const auto others = agents_in_range(seen, options_.contact_rangeout_m, options_.lead_s);
+    const solvers::Solution solution = solver_->solve(problem(potential, seen.own, others));
+    if (!solution.usable()) return Target::hold(Reason::solver_failed);
+    return Target::at(solution.x.head<2>(), solution.cost);
+  }
+
+  void pose(const Neighbourhood& seen, const Plan&, ProblemViewer& viewer) const override {
+    const VirtualPotential potential(options_.gains, options_.waypoint(), seen.obstacles);
+    viewer.see(problem(potential, seen.own,
+                       agents_in_range(seen, options_.contact_rangeout_m, options_.lead_s)));
+  }
+
+ private:
+  solvers::Problem problem(const VirtualPotential& potential, const OwnState& own,
+                           std::span<const Agent> others) const {
+    solvers::Problem posed(Eigen::Vector2d::Zero(),
+                           VirtualPotentialCost(potential, options_.place(own), others));
+    posed.lower = Eigen::Vector2d::Constant(-options_.reach_m);
+    posed.upper = Eigen::Vector2d::Constant(options_.reach_m);
+    return posed;
+  }
+
+  VirtualPotentialStepOptions options_;
+  std::shared_ptr<const solvers::Solver> solver_;
+};
+
+const Enrol<Behaviour, VirtualPotentialOptions> force{
+    "virtual_potential",
+    "force of a way-point, obstacles, rotors and formation cells (Barisic et al. 2011); no ids",
+    [](const VirtualPotentialOptions& options) {
+      return std::make_unique<VirtualPotentialForce>(options);
+    }};
+
+const Enrol<Behaviour, VirtualPotentialStepOptions> step{
+    "virtual_potential_step", "minimum within reach of the same potential, by a solver; no ids",
+    [](const VirtualPotentialStepOptions& options) {
+      return std::make_unique<VirtualPotentialStep>(options);
+    }};
+
+}  // namespace
+}  // namespace shoal::formations
