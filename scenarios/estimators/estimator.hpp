@@ -51,6 +51,9 @@ class Navigation {
  public:
   virtual ~Navigation() = default;
 
+  /// True if what is believed is the truth, also between samples.
+  virtual bool exact() const { return false; }
+
   /// What vehicle `vehicle` believes at sample `k` = 0, 1, ..., asked for in that order; sample 0
   /// is at the start. `truth` is where it is, and `process` where its own model, under the inputs
   /// since the sample before, takes a state over one period. The estimate stands until the next.

@@ -24,7 +24,7 @@ struct KinematicModel {
     return moved;
   }
 
- private:
+  /// The rates of (phi, theta, psi) at these angles, rad/s.
   static Eigen::Vector3d euler_rates(const Eigen::Vector3d& angles, const VehicleState& x) {
     const double p = x(3), q = x(4), r = x(5);
     const double cosine = std::cos(angles(0)), sine = std::sin(angles(0));
@@ -33,7 +33,7 @@ struct KinematicModel {
     return {p + turning * std::sin(angles(1)) / c, cosine * q - sine * r, turning / c};
   }
 
-  // R_z(psi) R_y(theta) R_x(phi), applied from the right.
+  /// Over ground (north, east, down), of a velocity in body axes: R_z(psi) R_y(theta) R_x(phi).
   static Eigen::Vector3d velocity(const Eigen::Vector3d& angles, const Eigen::Vector3d& body) {
     const double cf = std::cos(angles(0)), sf = std::sin(angles(0));
     const double ct = std::cos(angles(1)), st = std::sin(angles(1));

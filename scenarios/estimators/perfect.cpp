@@ -7,6 +7,8 @@ class PerfectNavigation final : public Navigation {
  public:
   explicit PerfectNavigation(std::size_t vehicles) : estimates_(vehicles) {}
 
+  bool exact() const override { return true; }
+
   const Estimate& sample(std::size_t vehicle, std::uint64_t, const VehicleState& truth,
                          const ProcessRef&) override {
     Estimate& estimate = estimates_[vehicle];

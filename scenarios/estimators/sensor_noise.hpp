@@ -31,6 +31,8 @@ struct SensorNoise {
   double scale = 1.0;
   bool faults = true;
   RateLimit rate_limit = RateLimit::per_second;
+  double outage_from_s = 0.0;
+  double outage_s = 0.0;
 
   static void declare(Options<SensorNoise>& o);
 };
@@ -45,7 +47,7 @@ class SensorBanks {
               double period_s);
 
   /// What is added to the true state in sample `k` = 0, 1, ..., asked for in that order. NaN in the
-  /// channels at fault. All zero while the noise is off.
+  /// channels at fault. All zero while the noise is off and there is no outage.
   VehicleState sample(std::size_t vehicle, std::uint64_t k);
 
   const SensorNoise& noise() const { return noise_; }
@@ -53,9 +55,11 @@ class SensorBanks {
  private:
   using Bank = std::array<GaussMarkov::Channel, 12>;
 
+  bool out_at(std::uint64_t k) const;
+
   SensorNoise noise_;
   RandomStreams random_;
-  double steps_;
+  double period_s_, steps_;
   std::array<GaussMarkov, 5> models_;  // by Sensor
   std::vector<Bank> banks_;
 };

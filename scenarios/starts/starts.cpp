@@ -80,8 +80,48 @@ class PointsStart final : public StartSource {
   }
 };
 
+/// On a rectangular grid, row by row from the south-west.
+class GridStart final : public StartSource {
+ public:
+  double x_m = 0.0;
+  double y_m = 0.0;
+  double spacing_m = 20.0;
+  std::int64_t columns = 2;
+  double heading_deg = 180.0;
+  Origin origin;
+
+  static void declare(Options<GridStart>& o) {
+    using G = GridStart;
+    o.number("x_m", &G::x_m, "m", {}, "east, of the middle of the grid");
+    o.number("y_m", &G::y_m, "m", {}, "north, of the middle");
+    o.number("spacing_m", &G::spacing_m, "m", above(0), "distance of rows and of columns");
+    o.integer("columns", &G::columns, "", in(1, 1e6),
+              "places in a row; the plan must have as many slots as full rows");
+    o.number("heading_deg", &G::heading_deg, "deg", in(-360, 360), heading_meaning);
+  }
+
+  std::vector<Start> place(const formations::Plan& plan, const RandomStreams&) const override {
+    if (plan.size() % columns != 0) {
+      throw InputError(origin, "swarm.start.grid has " + std::to_string(columns) +
+                                   " columns, which do not divide the plan's " +
+                                   std::to_string(plan.size()) + " slots");
+    }
+    const double middle_column = 0.5 * static_cast<double>(columns - 1);
+    const double middle_row = 0.5 * static_cast<double>(plan.size() / columns - 1);
+    std::vector<Start> starts;
+    for (std::int64_t i = 0; i < plan.size(); ++i) {
+      const auto column = static_cast<double>(i % columns), row = static_cast<double>(i / columns);
+      starts.push_back({x_m + spacing_m * (column - middle_column),
+                        y_m + spacing_m * (row - middle_row), from_compass_deg(heading_deg)});
+    }
+    require_usable(starts, plan, origin);
+    return starts;
+  }
+};
+
 const Enrol<StartSource, BoxStart> box{"box", "uniform in a square around the origin"};
 const Enrol<StartSource, PlanStart> on_plan{"plan", "on the slots of the plan, centred"};
+const Enrol<StartSource, GridStart> on_grid{"grid", "on a rectangular grid"};
 const Enrol<StartSource, PointsStart> at_points{"points", "at points given in the scenario"};
 
 }  // namespace

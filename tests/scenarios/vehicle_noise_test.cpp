@@ -63,6 +63,24 @@ TEST(SensorBanks, AFaultOfOneChannelLeavesTheOthersAlone) {
   EXPECT_EQ(all_at_once, 0);
 }
 
+TEST(SensorBanks, AnOutageSilencesAllChannelsOfAllVehiclesAndNothingElse) {
+  constexpr double period_s = 0.5;
+  SensorNoise with_outage;
+  with_outage.outage_from_s = 10.0;
+  with_outage.outage_s = 60.0;
+  SensorNoise silent_noise = with_outage;
+  silent_noise.on = false;
+  SensorBanks banks(with_outage, 2, RandomStreams(5), period_s);
+  SensorBanks exact(silent_noise, 1, RandomStreams(5), period_s);
+  for (std::uint64_t k = 0; k < 200; ++k) {
+    const double t = static_cast<double>(k) * period_s;
+    const bool out = t >= 10.0 && t < 70.0;
+    EXPECT_EQ(banks.sample(0, k).array().isNaN().all(), out) << t;
+    EXPECT_EQ(banks.sample(1, k).array().isNaN().all(), out) << t;
+    EXPECT_EQ(exact.sample(0, k).array().isNaN().all(), out) << t;
+  }
+}
+
 TEST(SensorBanks, ScaleScalesAndOffIsZero) {
   SensorNoise twice, off;
   twice.scale = 2.0;
