@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Every scenario of the library with every behaviour, beside the numbers they gave before.
+"""Every scenario of the library with every behaviour that fits it, beside the numbers they gave before.
 
     tests/golden.py [--shoal PROGRAM] [--write]
 
@@ -49,7 +49,11 @@ def run(shoal, scenario, behaviour, seed):
 
 def measure(shoal, seeds):
     """(scenario, behaviour) -> per measure, the values over the seeds."""
-    cases = [(s, b) for s in names(shoal, "scenario") for b in names(shoal, "behaviour")]
+    # Behaviours of virtual potentials lead to way-points, which only their own scenarios have; of
+    # those the basin, with its 256 vehicles, is a matter of its study.
+    cases = [(s, b) for s in names(shoal, "scenario") if s != "potentials_basin"
+             for b in names(shoal, "behaviour")
+             if s.startswith("potentials_") == b.startswith("virtual_potential")]
     with concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
         jobs = {case: [pool.submit(run, shoal, *case, seed) for seed in seeds] for case in cases}
         return {case: list(zip(*(job.result() for job in runs))) for case, runs in jobs.items()}

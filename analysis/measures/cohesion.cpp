@@ -15,8 +15,9 @@ constexpr std::size_t few = 64;
 /// Does the swarm hold together, and how close do two vehicles come?
 ///
 /// Fragments are the connected parts of the graph of vehicles within acoustic range of one another,
-/// at the end of the mission. The least separation is over all looks, 5 s apart, and has no value
-/// if no two vehicles ever were within acoustic range.
+/// at the end of the mission. The least separation is over all looks, 5 s apart (every tick where
+/// vehicles go to a way-point or past obstacles), and has no value if no two vehicles ever were
+/// within acoustic range.
 class Cohesion final : public Measure {
  public:
   static void declare(Options<Cohesion>&) {}
@@ -28,7 +29,10 @@ class Cohesion final : public Measure {
         {"lost_vehicles", "", "vehicles lost"}};
   }
 
-  void begin(const scenarios::World& world) override { every_s_ = log_interval_s(world); }
+  void begin(const scenarios::World& world) override {
+    const bool close = world.behaviour().waypoint() || !world.obstacles().empty();
+    every_s_ = close ? world.scenario().trial.tick_s : log_interval_s(world);
+  }
 
   void observe(const scenarios::World& world) override {
     survivors(world, positions_, slots_);

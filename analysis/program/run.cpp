@@ -11,16 +11,18 @@
 namespace shoal::program {
 namespace {
 
-std::string shown(const std::optional<double>& value) {
-  return value ? fmt::format("{:.6g}", *value) : "never";
-}
-
 void print_summary(const analysis::Trial& trial, const std::string& name) {
   fmt::print("{}: {}, {} vehicles, {:g} s, seed {}\n", name, trial.scenario.behaviour.kind(),
-             trial.world->size(), trial.scenario.trial.duration_s, trial.scenario.trial.seed);
+             trial.world->size(), trial.world->time_s(), trial.scenario.trial.seed);
+  std::vector<std::string> without;
   for (const auto& [metric, value] : trial.results.values) {
-    fmt::print("  {:<30} {:>12}\n", metric, shown(value));
+    if (value) {
+      fmt::print("  {:<30} {:>12.6g}\n", metric, *value);
+    } else {
+      without.push_back(metric);
+    }
   }
+  if (!without.empty()) fmt::print("  never, or not of this trial: {}\n", listed(without));
   fmt::print("simulated in {:.2f} s, {:.3g} vehicle-seconds per second\n", trial.wall_s,
              trial.vehicle_seconds_per_wall_s());
 }

@@ -256,6 +256,82 @@ TEST(Disagreement, IsThatOfBehavioursThatLayAPlan) {
   EXPECT_TRUE(series(results, "rotation_disagreement_deg").time_s.empty());
 }
 
+/// Two vehicles 30 m apart on their way through open water, with an obstacle aside.
+const Settings two_on_their_way = {
+    "plan.square={rows=1,columns=2,separation_m=30}",
+    "swarm.start.kind=points",
+    "swarm.start.points={points=[[0,0],[0,30]],heading_deg=90}",
+    "swarm.vehicle.kind=nps_auv",
+    "behaviour.kind=virtual_potential",
+    "behaviour.virtual_potential.waypoint_x_m=300",
+    "behaviour.virtual_potential.waypoint_y_m=15",
+    "behaviour.virtual_potential.lead_s=6",
+    "planner.update=tick",
+    "planner.period_s=0.5",
+    "guidance.period_s=0.5",
+    "trial.tick_s=0.5",
+    "ping={period_s=0.5,carries_state=true}",
+    "trial.duration_s=400",
+    "arrival.radius_m=40",
+    "swarm.vehicle.nps_auv.controllers.reverse=true",
+    "obstacle=[{shape={kind='circle',circle={x_m=150,y_m=200,radius_m=20}}}]"};
+
+TEST(Passage, TellsWhoArrivedWhenAndHowTheFormationWasHeld) {
+  const Trial trial = run(two_on_their_way);
+  const Results& results = trial.results;
+  EXPECT_EQ(results.at("arrived_vehicles"), 2.0);
+  EXPECT_NEAR(*results.at("arrival_first_s"), 215.0, 25.0);  // 260 m at 1.4 m/s, from rest
+  EXPECT_EQ(*results.at("arrival_spread_s"),
+            *results.at("arrival_last_s") - *results.at("arrival_first_s"));
+  EXPECT_LT(*results.at("cell_error_rms_m"), 3.0);
+  EXPECT_GE(*results.at("cell_error_worst_m"), *results.at("cell_error_rms_m"));
+  // The northern one keeps about its line, 150 m from the edge of the obstacle.
+  EXPECT_NEAR(*results.at("clearance_min_m"), 150.0, 5.0);
+  EXPECT_NEAR(*results.at("min_separation_m"), 30.0, 3.0);
+  EXPECT_GT(*results.at("control_effort_m_s"), 1.0);  // up to 1.4 m/s, and down again
+  const scenarios::Series& error = series(results, "cell_error_m");
+  EXPECT_EQ(error.values.front(), 0.0);
+  EXPECT_EQ(error.time_s.size(), 81u);
+}
+
+TEST(Passage, IsNotMeasuredWhereThereIsNoWay) {
+  const Results results = run(parked).results;
+  EXPECT_EQ(results.at("arrived_vehicles"), std::nullopt);
+  EXPECT_EQ(results.at("cell_error_rms_m"), std::nullopt);
+  EXPECT_EQ(results.at("clearance_min_m"), std::nullopt);
+  EXPECT_TRUE(series(results, "separation_m").values.empty());
+}
+
+TEST(Passage, KnowsWhoDidNotArrive) {
+  const Results results = run(both(two_on_their_way, {"trial.duration_s=100"})).results;
+  EXPECT_EQ(results.at("arrived_vehicles"), 0.0);
+  EXPECT_EQ(results.at("stranded_share"), 1.0);
+  EXPECT_EQ(results.at("arrival_first_s"), std::nullopt);
+  EXPECT_EQ(results.at("arrival_last_s"), std::nullopt);
+}
+
+TEST(Estimation, OfVehiclesThatKnowTheirStatesIsNotMeasured) {
+  EXPECT_EQ(run(two_on_their_way).results.at("position_error_rms_m"), std::nullopt);
+}
+
+TEST(Estimation, TellsErrorsFaultsAndConsistency) {
+  const Results results =
+      run(both(two_on_their_way, {"swarm.vehicle.nps_auv.estimator.kind=ukf"})).results;
+  EXPECT_NEAR(*results.at("position_error_rms_m"), 1.0, 0.7);
+  EXPECT_LT(*results.at("speed_error_rms_m_s"), 0.1);
+  EXPECT_LT(*results.at("heading_error_rms_deg"), 4.0);
+  EXPECT_GT(*results.at("nees_mean"), 2.0);
+  EXPECT_LT(*results.at("nees_mean"), 24.0);
+  EXPECT_GT(*results.at("fault_share"), 0.0);
+  EXPECT_LT(*results.at("fault_share"), 0.1);
+  const Results blind =
+      run(both(two_on_their_way,
+               {"swarm.vehicle.nps_auv.estimator.kind=ukf",
+                "swarm.vehicle.nps_auv.estimator.ukf.sensors={outage_from_s=0,outage_s=200}"}))
+          .results;
+  EXPECT_NEAR(*blind.at("fault_share"), 0.5, 0.05);
+}
+
 TEST(Series, StandOnInstantsThatTheyShare) {
   const Results results =
       run(parked, {"current.kind=uniform", "current.uniform.u_m_s=0.5"}).results;
