@@ -20,7 +20,7 @@ class Passage final : public Measure {
   std::vector<Quantity> values() const override {
     return {{"arrived_vehicles", "", "vehicles that have been at the way-point"},
             {"stranded_share", "", "share of the vehicles that never were"},
-        {"arrival_first_s", "s", "when the first vehicle was at the way-point"},
+            {"arrival_first_s", "s", "when the first vehicle was at the way-point"},
             {"arrival_last_s", "s", "when the last one was, if all were"},
             {"arrival_spread_s", "s", "between the first and the last, if all were"},
             {"clearance_min_m", "m", "closest that a vehicle came to an obstacle's edge"},

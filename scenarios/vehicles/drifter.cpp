@@ -73,12 +73,12 @@ class DrifterSwarm final : public Swarm {
     const Motor& motor = motors_[i];
     const double turning = motor.on ? motor.heading_thrust * turn_rate_ : 0.0;
     formations::OwnState own{.position = {x_m[i], y_m[i]},
-                 .heading_rad = heading_rad[i],
-                 .speed_m_s = speed_m_s[i],
-                 .turn_rate_rad_s = turning + motor.noise_rad_s};
+                             .heading_rad = heading_rad[i],
+                             .speed_m_s = speed_m_s[i],
+                             .turn_rate_rad_s = turning + motor.noise_rad_s};
     if (speed_m_s[i] != 0.0) {
-      own.velocity = speed_m_s[i] * Eigen::Vector2d(std::cos(heading_rad[i]),
-                                                    std::sin(heading_rad[i]));
+      own.velocity =
+          speed_m_s[i] * Eigen::Vector2d(std::cos(heading_rad[i]), std::sin(heading_rad[i]));
     }
     return own;
   }
