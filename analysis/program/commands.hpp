@@ -53,5 +53,7 @@ void merge(const std::string& folder, const std::vector<std::string>& others);
 void export_study(const std::string& folder, const std::string& out);
 void tables(const std::string& folder, bool summary);
 void claims(const std::string& folder);
+/// Becomes another program, which takes the same arguments.
+void figures(const std::vector<std::string>& arguments);
 
 }  // namespace shoal::program

@@ -197,6 +197,13 @@ int main(int argc, char** argv) {
                             "CSV file for Dolan and Moré's performance profiles");
   solve_command->callback([&] { command = [&] { shoal::program::solve(solve); }; });
 
+  CLI::App* figures_command = app.add_subcommand(
+      "figures", "Draw the figures of a run, as PDF and SVG (matplotlib); --help tells more");
+  figures_command->prefix_command();
+  figures_command->set_help_flag();
+  figures_command->callback(
+      [&] { command = [&] { shoal::program::figures(figures_command->remaining()); }; });
+
   std::string model;
   std::string inputs;
   CLI::App* eval_command =

@@ -131,8 +131,8 @@ std::optional<TestResult> sign_flip_test(Sample differences, Alternative alterna
     std::array<double, 256> block;
     std::ptrdiff_t as_far_out = 0;
     for (int done = 0; done < options.resamples; done += static_cast<int>(block.size())) {
-      const std::span<double> some(block.data(),
-                                   std::min<std::size_t>(block.size(), options.resamples - done));
+      const std::span<double> some(
+          block.data(), std::min(block.size(), static_cast<std::size_t>(options.resamples - done)));
       sums.sum(random, static_cast<std::uint32_t>(done), some);
       as_far_out += std::ranges::count_if(
           some, [&](double sum) { return (two_sided ? std::abs(sum) : sum) >= outward - tie; });

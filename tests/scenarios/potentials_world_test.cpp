@@ -188,6 +188,18 @@ TEST(Obstacles, AreNotMetByVehiclesThatPassThem) {
   for (std::size_t i = 0; i < world.size(); ++i) EXPECT_GT(world.arrived_s(i), 0.0);
 }
 
+TEST(GridStart, FillsRowsFromTheSouthWest) {
+  const std::vector<std::string> grid{"plan.square={rows=2,columns=3}", "swarm.start.kind=grid",
+                                      "swarm.start.grid.columns=3", "swarm.start.grid.x_m=100",
+                                      "swarm.start.grid.spacing_m=20"};
+  const World world(scenario("construction_square", grid));
+  EXPECT_EQ(world.swarm().x_m, (std::vector<double>{80, 100, 120, 80, 100, 120}));
+  EXPECT_EQ(world.swarm().y_m, (std::vector<double>{-10, -10, -10, 10, 10, 10}));
+  EXPECT_NE(complaint("construction_square", and_also(grid, "swarm.start.grid.columns=4"))
+                .find("swarm.start.grid has 4 columns, which do not divide the plan's 6 slots"),
+            std::string::npos);
+}
+
 TEST(Waypoints, WantTargetsThatAreRenewedByTheClock) {
   EXPECT_NE(complaint("potentials_channel", {"planner.update=ping"})
                 .find("leads vehicles that hear nobody, too; set planner.update = \"tick\""),

@@ -1,0 +1,65 @@
+"""What a folder of `shoal run` holds: scenario.toml and run.nc."""
+
+import math
+import tomllib
+
+import netCDF4
+import numpy
+
+
+class NoRun(Exception):
+    """The folder is none that `shoal run` wrote, or is damaged."""
+
+
+class RecordedRun:
+    """A trial. Metres east and north, seconds; vehicles are numbered in the order of the plan."""
+
+    def __init__(self, folder):
+        for name in ("scenario.toml", "run.nc"):
+            if not (folder / name).is_file():
+                raise NoRun(f"{folder} has no {name}; name a folder that shoal run wrote, "
+                            "with trial.record_every_s above 0")
+        try:
+            self.scenario = tomllib.loads((folder / "scenario.toml").read_text())
+            with netCDF4.Dataset(folder / "run.nc") as record:
+                self._values = {name: variable[:].filled(math.nan)
+                                if hasattr(variable[:], "filled") else variable[:]
+                                for name, variable in record.variables.items()
+                                if variable.dtype.kind in "fiu"}
+                self._dimensions = {name: variable.dimensions
+                                    for name, variable in record.variables.items()}
+        except (tomllib.TOMLDecodeError, OSError, RuntimeError) as error:
+            raise NoRun(f"{folder} is damaged: {error}") from error
+        self.time_s = self._values["time"]
+
+    def by_vehicle(self, name):
+        """A recorded number: rows are instants, columns vehicles."""
+        values = numpy.asarray(self._values[name], dtype=float)
+        return values if self._dimensions[name][0] == "time" else values.T
+
+    def series(self, name):
+        """(seconds, numbers) of a measure against time, or nothing if it was not measured."""
+        if name not in self._values:
+            return None
+        return self._values[self._dimensions[name][0]], self._values[name]
+
+    @property
+    def obstacles(self):
+        """(shape, its options) of each."""
+        return [(o["shape"]["kind"], o["shape"][o["shape"]["kind"]])
+                for o in self.scenario.get("obstacle", [])]
+
+    @property
+    def waypoint(self):
+        """(east, north), or nothing if the behaviour leads to no place."""
+        behaviour = self.scenario["behaviour"]
+        options = behaviour[behaviour["kind"]]
+        if "waypoint_x_m" not in options:
+            return None
+        return options["waypoint_x_m"], options["waypoint_y_m"]
+
+    def arrived(self):
+        """Of each vehicle, whether a recorded instant finds it at the way-point."""
+        x, y = self.waypoint
+        away = numpy.hypot(self.by_vehicle("x") - x, self.by_vehicle("y") - y)
+        return (away <= self.scenario["arrival"]["radius_m"]).any(axis=0)

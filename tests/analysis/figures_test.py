@@ -1,0 +1,83 @@
+"""shoal figures as its user sees them: made for every kind of run, the same twice, and bad input.
+
+    python3 figures_test.py SHOAL
+"""
+
+import pathlib
+import shutil
+import subprocess
+
+import desk
+from desk import Desk
+
+TIME = {"speeds", "energy", "thrust"}
+FIGURES = {"potentials_channel": {*TIME, "trajectories", "quality", "passage"},
+           "potentials_clutter": {*TIME, "trajectories", "quality", "passage"},
+           "potentials_basin": {*TIME, "trajectories", "basin", "passage"},
+           "redsea_square": {*TIME, "trajectories", "quality"}}
+BEGINS = {".pdf": b"%PDF-", ".svg": b"<?xml"}
+
+
+class Figures(Desk):
+    def recorded(self, scenario, *sets):
+        done = self.shoal("run", scenario, "--set", "trial.duration_s=40", *sets, "--out", scenario)
+        self.assertEqual(done.returncode, 0, done.stderr)
+
+    def drawn(self, folder, *arguments):
+        done = self.shoal("figures", folder, *arguments)
+        self.assertEqual((done.returncode, done.stderr), (0, ""))
+        return {pathlib.Path(file.strip()) for file in
+                done.stdout.removeprefix("written: ").split(",")}
+
+    def test_every_kind_of_run_has_its_figures(self):
+        for scenario, names in FIGURES.items():
+            self.recorded(scenario)
+            files = self.drawn(scenario)
+            self.assertEqual({file.stem for file in files}, names)
+            for file in files:
+                self.assertTrue((self.desk / file).read_bytes().startswith(BEGINS[file.suffix]))
+            self.assertEqual({file.name for file in files},
+                             {file.name for file in (self.desk / scenario / "figures").iterdir()})
+
+    def test_the_same_run_gives_the_same_bytes(self):
+        self.recorded("potentials_clutter")
+        first = {file: (self.desk / file).read_bytes() for file in self.drawn("potentials_clutter")}
+        for file in self.drawn("potentials_clutter"):
+            self.assertEqual((self.desk / file).read_bytes(), first[file], file)
+
+    def test_fonts_are_in_the_file(self):
+        self.recorded("redsea_square")
+        self.drawn("redsea_square", "--only", "energy", "--columns", "2", "--out", "two")
+        fonts = subprocess.run(["pdffonts", self.desk / "two/energy.pdf"], check=True, text=True,
+                               capture_output=True).stdout.splitlines()[2:]
+        self.assertTrue(fonts)
+        self.assertTrue(all(" yes " in font for font in fonts), fonts)
+        pages = subprocess.run(["pdfinfo", self.desk / "two/energy.pdf"], check=True, text=True,
+                               capture_output=True).stdout
+        width = float(pages.split("Page size:")[1].split()[0])
+        self.assertAlmostEqual(width / 72 * 2.54, 17.4, places=1)
+
+    def test_says_what_is_wrong(self):
+        self.assert_complains(self.shoal("figures", "."), 2, ["has no scenario.toml"])
+        self.assert_complains(self.shoal("figures"), 2, ["required: run", "--help"])
+        self.recorded("potentials_channel")
+        self.assert_complains(self.shoal("figures", "potentials_channel", "--only", "spedes"), 2,
+                              ["'spedes'", "speeds"])
+        self.assert_complains(self.shoal("figures", "potentials_channel", "--only", "basin"), 2,
+                              ["nothing that these figures show"])
+        record = self.desk / "potentials_channel/run.nc"
+        record.write_bytes(record.read_bytes()[:1000])
+        self.assert_complains(self.shoal("figures", "potentials_channel"), 2, ["is damaged"])
+        record.unlink()
+        self.assert_complains(self.shoal("figures", "potentials_channel"), 2, ["has no run.nc"])
+
+    def test_a_folder_that_takes_nothing(self):
+        self.recorded("potentials_channel")
+        (self.desk / "file").write_text("")
+        self.assert_complains(self.shoal("figures", "potentials_channel", "--out", "file"), 1,
+                              ["cannot write file"])
+        shutil.rmtree(self.desk / "potentials_channel")
+
+
+if __name__ == "__main__":
+    desk.main()
