@@ -6,6 +6,16 @@
 
 namespace shoal::formations {
 
+namespace {
+
+bool finite(const OwnState& state) {
+  return state.position.allFinite() && state.velocity.allFinite() &&
+         std::isfinite(state.heading_rad) && std::isfinite(state.speed_m_s) &&
+         std::isfinite(state.turn_rate_rad_s);
+}
+
+}  // namespace
+
 Planner::Planner(std::shared_ptr<const Plan> plan, std::shared_ptr<const Behaviour> behaviour,
                  std::string_view own_name, const PingFilterOptions& filter, Obstacles obstacles)
     : plan_(std::move(plan)),
@@ -17,7 +27,7 @@ Planner::Planner(std::shared_ptr<const Plan> plan, std::shared_ptr<const Behavio
 void Planner::receive(const Ping& ping, const Eigen::Vector2d& own_position) {
   if (!std::isfinite(ping.time_s) || !std::isfinite(ping.range_m) || ping.range_m < 0.0 ||
       !std::isfinite(ping.bearing_rad) || !std::isfinite(ping.elevation_rad) ||
-      !own_position.allFinite()) {
+      !own_position.allFinite() || (ping.state && !finite(*ping.state))) {
     throw InputError("a ping needs finite numbers and a range of at least 0 m; drop this one");
   }
   if (ping.slot != anonymous && (ping.slot < 0 || ping.slot >= plan_->size())) {

@@ -128,6 +128,8 @@ void World::run(std::span<Observer* const> observers) {
 }
 
 std::int64_t World::next_event(std::span<const std::int64_t> looks) const {
+  // Whoever looks must not change when the trial ends.
+  if (waypoint_ && scenario_.arrival.ends_trial) return tick_ + 1;
   const auto following = [this](std::int64_t ticks) { return (tick_ / ticks + 1) * ticks; };
   std::int64_t next = end_tick_;
   for (const std::int64_t ticks : looks) next = std::min(next, following(ticks));

@@ -123,6 +123,7 @@ TEST(Planner, RefusesPingsThatCannotBe) {
   EXPECT_EQ(refusal({.bearing_rad = HUGE_VAL, .slot = 1}), numbers);
   EXPECT_EQ(refusal({.elevation_rad = nan, .slot = 1}), numbers);
   EXPECT_EQ(refusal({.slot = 1}, {0, nan}), numbers);
+  EXPECT_EQ(refusal({.slot = 1, .state = OwnState{.heading_rad = nan}}), numbers);
   EXPECT_EQ(refusal({.slot = 5}), "a ping says slot 5, but the plan has slots 0 to 4");
   EXPECT_EQ(refusal({.slot = -2}), "a ping says slot -2, but the plan has slots 0 to 4");
   EXPECT_EQ(refusal({.slot = 0}), "a ping carries the own id v0; drop echoes of the own pings");

@@ -120,6 +120,21 @@ TEST(VirtualPotentials, EndTheTrialOnArrivalIfAsked) {
   EXPECT_LT(world.time_s(), 400.0);
 }
 
+TEST(VirtualPotentials, EndTheTrialAtTheSameTimeWhoeverLooks) {
+  const Scenario s =
+      scenario("potentials_channel",
+               and_also(and_also(perfect, "arrival.ends_trial=true"), "ping.period_s=7"));
+  struct Looker final : Observer {
+    double every_s() const override { return 0.5; }
+    void observe(const World&) override {}
+  } looker;
+  Observer* observers[] = {&looker};
+  World alone(s), watched(s);
+  alone.run({});
+  watched.run(observers);
+  EXPECT_EQ(alone.time_s(), watched.time_s());
+}
+
 TEST(VirtualPotentials, AreABehaviourOfTheDrifterToo) {
   World world(scenario(
       "potentials_channel",
