@@ -106,13 +106,15 @@ class GridStart final : public StartSource {
                                    " columns, which do not divide the plan's " +
                                    std::to_string(plan.size()) + " slots");
     }
+    const std::int64_t rows = plan.size() / columns;
     const double middle_column = 0.5 * static_cast<double>(columns - 1);
-    const double middle_row = 0.5 * static_cast<double>(plan.size() / columns - 1);
+    const double middle_row = 0.5 * static_cast<double>(rows - 1);
     std::vector<Start> starts;
     for (std::int64_t i = 0; i < plan.size(); ++i) {
-      const auto column = static_cast<double>(i % columns), row = static_cast<double>(i / columns);
-      starts.push_back({x_m + spacing_m * (column - middle_column),
-                        y_m + spacing_m * (row - middle_row), from_compass_deg(heading_deg)});
+      const std::int64_t row = i / columns, column = i % columns;
+      starts.push_back({x_m + spacing_m * (static_cast<double>(column) - middle_column),
+                        y_m + spacing_m * (static_cast<double>(row) - middle_row),
+                        from_compass_deg(heading_deg)});
     }
     require_usable(starts, plan, origin);
     return starts;
