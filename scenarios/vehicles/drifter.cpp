@@ -6,20 +6,12 @@
 #include <numbers>
 
 #include "shoal/core/angles.hpp"
+#include "shoal/scenarios/vehicles/whole_times.hpp"
 
 namespace shoal::scenarios {
 namespace {
 
 using formations::Command;
-
-/// How many times `part` goes into `whole`, or 0 if it does not do so exactly.
-std::int64_t times(double whole, double part) {
-  const double ratio = whole / part;
-  const double rounded = std::round(ratio);
-  return rounded >= 1.0 && std::abs(ratio - rounded) < 1e-9 * rounded
-             ? static_cast<std::int64_t>(rounded)
-             : 0;
-}
 
 class DrifterSwarm final : public Swarm {
  public:
@@ -30,9 +22,9 @@ class DrifterSwarm final : public Swarm {
         power_w_(energy),
         random_(random),
         tick_s_(tick_s),
-        steps_(times(tick_s, type.step_s)),
-        controller_steps_(times(type.controller_period_s, type.step_s)),
-        noise_ticks_(times(type.heading_noise_period_s, tick_s)),
+        steps_(whole_times(tick_s, type.step_s)),
+        controller_steps_(whole_times(type.controller_period_s, type.step_s)),
+        noise_ticks_(whole_times(type.heading_noise_period_s, tick_s)),
         turn_rate_(radians(type.turn_rate_deg_s)),
         noise_decay_(std::exp(-type.heading_noise_period_s / type.heading_noise_time_s)),
         noise_kick_(radians(type.heading_noise_deg_s) *
@@ -303,7 +295,7 @@ void Drifter::declare(Options<Drifter>& o) {
 }
 
 std::optional<std::string> Drifter::complaint() const {
-  if (times(controller_period_s, step_s) == 0) {
+  if (whole_times(controller_period_s, step_s) == 0) {
     return "controller_period_s must be a multiple of step_s";
   }
   const double steepest = 2.0 * drag_n * std::max(max_speed_m_s, drag_knot_m_s) / mass_kg;
@@ -315,8 +307,9 @@ std::optional<std::string> Drifter::complaint() const {
 }
 
 std::optional<std::string> Drifter::refuses_tick(double tick_s) const {
-  if (times(tick_s, step_s) == 0) return "trial.tick_s must be a multiple of the vehicle's step_s";
-  if (times(heading_noise_period_s, tick_s) == 0) {
+  if (whole_times(tick_s, step_s) == 0)
+    return "trial.tick_s must be a multiple of the vehicle's step_s";
+  if (whole_times(heading_noise_period_s, tick_s) == 0) {
     return "the vehicle's heading_noise_period_s must be a multiple of trial.tick_s";
   }
   return std::nullopt;

@@ -9,6 +9,7 @@
 #include "shoal/scenarios/estimators/kinematic_model.hpp"
 #include "shoal/scenarios/vehicles/nps_auv/controllers.hpp"
 #include "shoal/scenarios/vehicles/swarm.hpp"
+#include "shoal/scenarios/vehicles/whole_times.hpp"
 
 namespace shoal::scenarios {
 namespace {
@@ -40,15 +41,6 @@ struct NpsAuv final : VehicleType {
                                 const RandomStreams& random, double tick_s) const override;
 };
 
-/// How many of `part` make `whole`, or 0 if they do not.
-std::int64_t times(double whole, double part) {
-  const double ratio = whole / part;
-  const double rounded = std::round(ratio);
-  return rounded >= 1.0 && std::abs(ratio - rounded) <= 1e-9 * rounded
-             ? static_cast<std::int64_t>(rounded)
-             : 0;
-}
-
 class NpsAuvSwarm final : public Swarm {
  public:
   NpsAuvSwarm(const NpsAuv& type, const std::vector<Start>& starts, const Energy& energy,
@@ -59,9 +51,9 @@ class NpsAuvSwarm final : public Swarm {
         power_w_(energy),
         depth_m_(type.depth_m),
         step_s_(type.step_s),
-        steps_(times(tick_s, type.step_s)),
-        controller_steps_(times(type.controller_period_s, type.step_s)),
-        estimator_steps_(times(type.estimator_period_s, type.step_s)),
+        steps_(whole_times(tick_s, type.step_s)),
+        controller_steps_(whole_times(type.controller_period_s, type.step_s)),
+        estimator_steps_(whole_times(type.estimator_period_s, type.step_s)),
         disturbances_(type.disturbance, starts.size(), random, type.estimator_period_s),
         bodies_(starts.size()) {
     std::vector<VehicleState> states;
@@ -208,7 +200,7 @@ void NpsAuv::declare(Options<NpsAuv>& o) {
 std::optional<std::string> NpsAuv::complaint() const {
   for (const auto& [name, period_s] : {std::pair("controller_period_s", controller_period_s),
                                        std::pair("estimator_period_s", estimator_period_s)}) {
-    if (times(period_s, step_s) > 0) continue;
+    if (whole_times(period_s, step_s) > 0) continue;
     return std::string(name) + " is " + shortest(period_s) +
            " s; it must be a multiple of step_s = " + shortest(step_s) + " s";
   }
@@ -216,7 +208,7 @@ std::optional<std::string> NpsAuv::complaint() const {
 }
 
 std::optional<std::string> NpsAuv::refuses_tick(double tick_s) const {
-  if (times(tick_s, step_s) > 0) return std::nullopt;
+  if (whole_times(tick_s, step_s) > 0) return std::nullopt;
   return "trial.tick_s must be a multiple of the vehicle's step_s = " + shortest(step_s) + " s";
 }
 
