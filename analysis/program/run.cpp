@@ -5,11 +5,22 @@
 #include "commands.hpp"
 #include "shoal/analysis/problem_recorder.hpp"
 #include "shoal/analysis/trial.hpp"
-#include "shoal/core/text.hpp"
 #include "shoal/scenarios/toml_file.hpp"
 
 namespace shoal::program {
 namespace {
+
+void print_wrapped(std::string line, const std::vector<std::string>& words) {
+  constexpr std::size_t width = 100;
+  for (const std::string& word : words) {
+    if (line.size() + 1 + word.size() > width) {
+      fmt::print("{}\n", line);
+      line = "   ";
+    }
+    line += " " + word;
+  }
+  fmt::print("{}\n", line);
+}
 
 void print_summary(const analysis::Trial& trial, const std::string& name) {
   fmt::print("{}: {}, {} vehicles, {:g} s, seed {}\n", name, trial.scenario.behaviour.kind(),
@@ -22,7 +33,7 @@ void print_summary(const analysis::Trial& trial, const std::string& name) {
       without.push_back(metric);
     }
   }
-  if (!without.empty()) fmt::print("  never, or not of this trial: {}\n", listed(without));
+  if (!without.empty()) print_wrapped("  never, or not of this trial:", without);
   fmt::print("simulated in {:.2f} s, {:.3g} vehicle-seconds per second\n", trial.wall_s,
              trial.vehicle_seconds_per_wall_s());
 }
