@@ -83,7 +83,8 @@ Command commanded(const Eigen::Vector2d& force, const OwnState& own, double peri
           .heading_rad = own.heading_rad + made.turn_rad,
           .speed_m_s = made.speed_m_s,
           .acceleration_m_s2 = made.acceleration_m_s2,
-          .turn_rate_rad_s = made.turn_rate_rad_s};
+          .turn_rate_rad_s = made.turn_rate_rad_s,
+          .outside_envelope = !made.reachable};
 }
 
 void PerformanceEnvelope::declare(Options<PerformanceEnvelope>& o) {

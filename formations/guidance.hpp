@@ -17,6 +17,8 @@ struct Command {
   double speed_m_s = 0.0;
   double acceleration_m_s2 = 0.0;  ///< on the way to that speed, for controllers that ask
   double turn_rate_rad_s = 0.0;    ///< on the way to that heading, counter-clockwise
+  /// The vehicle moves in a way from which its envelope allows no command (see AdmissibleSet).
+  bool outside_envelope = false;
 };
 
 /// Steers to a relative target, then lets the vehicle drift: Rypkema 2015, sec. 3.2, Alg. 1-2,

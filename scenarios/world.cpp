@@ -221,11 +221,15 @@ void World::note_arrivals(std::size_t first, std::size_t last, double time_s) {
 }
 
 void World::guide(std::size_t i) {
-  const std::optional<Eigen::Vector2d>& force = planners_[i].last_target().force_m_s2;
-  commands_[i] = force ? formations::commanded(*force, swarm_->own_state(i),
-                                               scenario_.guidance.period_s, scenario_.envelope)
-                       : scenario_.guidance.command(
-                             planners_[i].target_from(swarm_->own_position(i)), guidance_[i]);
+  const double period_s = scenario_.guidance.period_s;
+  if (const auto& force = planners_[i].last_target().force_m_s2) {
+    commands_[i] =
+        formations::commanded(*force, swarm_->own_state(i), period_s, scenario_.envelope);
+    if (commands_[i].outside_envelope) logbooks_[i].outside_envelope_s += period_s;
+  } else {
+    commands_[i] =
+        scenario_.guidance.command(planners_[i].target_from(swarm_->own_position(i)), guidance_[i]);
+  }
 }
 
 void World::listen_and_plan(std::size_t i, std::int64_t tick) {

@@ -32,6 +32,7 @@ struct Logbook {
   double thrusting_s = 0.0;        ///< time under a command to move (not latched as drifting)
   double distance_m = 0.0;         ///< over ground
   double thrust_distance_m = 0.0;  ///< of that, while moving through the water
+  double outside_envelope_s = 0.0;   ///< moved in a way from which no command is admissible
   std::int64_t pings_sent = 0;
 };
 

@@ -27,7 +27,9 @@ class Passage final : public Measure {
             {"cell_error_rms_m", "m", "error of the distances between vehicles under way, rms"},
             {"cell_error_worst_m", "m", "the same, rms over pairs, at the worst instant"},
             {"cell_error_final_m", "m", "the same at the end"},
-            {"control_effort_m_s", "m/s", "commanded acceleration over time, mean of vehicles"}};
+            {"control_effort_m_s", "m/s", "commanded acceleration over time, mean of vehicles"},
+            {"outside_envelope_share", "",
+             "share of the time in motions from which no command is admissible, mean of vehicles"}};
   }
 
   std::vector<Quantity> series() const override {
@@ -114,6 +116,10 @@ class Passage final : public Measure {
     results.add(
         "control_effort_m_s",
         forced_ ? std::optional(effort_ / static_cast<double>(world.size())) : std::nullopt);
+    results.add("outside_envelope_share",
+                forced_ && world.time_s() > 0.0
+                    ? std::optional(outside_envelope_s(world) / world.time_s())
+                    : std::nullopt);
     results.add_series("cell_error_m", cell_error_.time_s, cell_error_.numbers);
     results.add_series("separation_m", separation_.time_s, separation_.numbers);
     results.add_series("clearance_m", clearances_.time_s, clearances_.numbers);
@@ -145,6 +151,12 @@ class Passage final : public Measure {
       }
     }
     return least;
+  }
+
+  static double outside_envelope_s(const scenarios::World& world) {
+    double sum = 0.0;
+    for (std::size_t i = 0; i < world.size(); ++i) sum += world.logbook(i).outside_envelope_s;
+    return sum / static_cast<double>(world.size());
   }
 
   bool all_arrived(const scenarios::World& world) const {

@@ -31,7 +31,9 @@ class Swarm {
   std::size_t size() const { return x_m.size(); }
 
   /// Where a vehicle believes that it is, and how it moves: the truth, unless its type estimates.
-  virtual Eigen::Vector2d own_position(std::size_t i) const { return {x_m[i], y_m[i]}; }
+  Eigen::Vector2d own_position(std::size_t i) const {
+    return believed_m_.empty() ? Eigen::Vector2d(x_m[i], y_m[i]) : believed_m_[i];
+  }
   virtual formations::OwnState own_state(std::size_t i) const = 0;
   /// The last sample of its estimator, if its type has one.
   virtual const Estimate* estimate(std::size_t i) const {
@@ -52,6 +54,10 @@ class Swarm {
   std::vector<double> heading_rad;   ///< counter-clockwise from east
   std::vector<double> speed_m_s;     ///< forward, through water
   std::vector<double> propulsion_j;  ///< electrical energy spent on thrust and turning
+
+ protected:
+  /// Own positions of a type that estimates them, kept up to date by it; empty for any other.
+  std::vector<Eigen::Vector2d> believed_m_;
 };
 
 /// A type of vehicle.

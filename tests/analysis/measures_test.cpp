@@ -294,6 +294,16 @@ TEST(Passage, TellsWhoArrivedWhenAndHowTheFormationWasHeld) {
   EXPECT_EQ(error.time_s.size(), 81u);
 }
 
+TEST(Passage, TellsTheTimeInMotionsThatTheEnvelopeDoesNotKnow) {
+  Settings settings = two_on_their_way;
+  EXPECT_EQ(*run(settings).results.at("outside_envelope_share"), 0.0);
+  // From rest, nothing the envelope allows is within reach until the vehicle does 0.475 m/s.
+  settings.push_back("envelope={speed_min_m_s=0.5}");
+  const double share = *run(settings).results.at("outside_envelope_share");
+  EXPECT_GT(share, 0.0);
+  EXPECT_LT(share, 0.2);
+}
+
 TEST(Passage, IsNotMeasuredWhereThereIsNoWay) {
   const Results results = run(parked).results;
   EXPECT_EQ(results.at("arrived_vehicles"), std::nullopt);

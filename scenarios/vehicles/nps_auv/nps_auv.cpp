@@ -56,6 +56,7 @@ class NpsAuvSwarm final : public Swarm {
         estimator_steps_(whole_times(type.estimator_period_s, type.step_s)),
         disturbances_(type.disturbance, starts.size(), random, type.estimator_period_s),
         bodies_(starts.size()) {
+    believed_m_.resize(starts.size());
     std::vector<VehicleState> states;
     for (const Start& start : starts) {
       VehicleState state = VehicleState::Zero();
@@ -99,10 +100,6 @@ class NpsAuvSwarm final : public Swarm {
       }
       show(i);
     }
-  }
-
-  Eigen::Vector2d own_position(std::size_t i) const override {
-    return {bodies_[i].believed(7), bodies_[i].believed(6)};
   }
 
   formations::OwnState own_state(std::size_t i) const override {
@@ -170,6 +167,7 @@ class NpsAuvSwarm final : public Swarm {
     depth_m[i] = state(8);
     heading_rad[i] = turned_over(state(11));
     speed_m_s[i] = state(0);
+    believed_m_[i] = {bodies_[i].believed(7), bodies_[i].believed(6)};
   }
 
   NpsAuvModel model_;
