@@ -2,6 +2,8 @@
 
 #include <cerrno>
 #include <cstdio>
+#include <fstream>
+#include <iterator>
 #include <system_error>
 
 #include "shoal/core/error.hpp"
@@ -23,6 +25,14 @@ void write_whole_file(const std::filesystem::path& file, std::span<const char> c
   std::filesystem::remove(partial, ignored);
   throw SystemError("cannot write " + file.string() + ": " + failed.message() +
                     "; check free space and permissions");
+}
+
+std::optional<std::string> read_whole_file(const std::filesystem::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  std::string content(std::istreambuf_iterator<char>(in), {});
+  // A folder opens, but does not read.
+  if (!in.is_open() || in.bad()) return std::nullopt;
+  return content;
 }
 
 }  // namespace shoal

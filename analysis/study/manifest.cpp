@@ -7,7 +7,6 @@
 #include <array>
 #include <ctime>
 #include <fstream>
-#include <iterator>
 #include <nlohmann/json.hpp>
 #include <thread>
 
@@ -21,11 +20,6 @@ namespace {
 
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
-
-std::string text_of(const fs::path& file) {
-  std::ifstream in(file, std::ios::binary);
-  return {std::istreambuf_iterator<char>(in), {}};
-}
 
 std::string now_utc() {
   const std::time_t now = std::time(nullptr);
@@ -64,7 +58,7 @@ Json program() {
 }
 
 Json read_manifest(const fs::path& folder) {
-  return Json::parse(text_of(folder / "manifest.json"), nullptr, false);
+  return Json::parse(read_whole_file(folder / "manifest.json").value_or(""), nullptr, false);
 }
 
 /// Entries of both, once each, in the order in which they began.
@@ -156,7 +150,7 @@ void Manifest::write() const {
   Json manifest;
   manifest["title"] = study.title;
   manifest["study"] = {{"file", "study.toml"},
-                       {"hash", hash_of(text_of(folder_ / "study.toml"))},
+                       {"hash", hash_of(read_whole_file(folder_ / "study.toml").value())},
                        {"groups", groups},
                        {"trials", plan_.trials()}};
   manifest["seeds"] = {{"first", study.seed}, {"last", study.seed + most - 1}};

@@ -2,8 +2,6 @@
 
 #include <algorithm>
 #include <deque>
-#include <fstream>
-#include <iterator>
 #include <optional>
 
 #include "shoal/analysis/study/folder_lock.hpp"
@@ -94,17 +92,12 @@ void require_same_study(const fs::path& one, const fs::path& other) {
   }
 }
 
-std::string text_of(const fs::path& file) {
-  std::ifstream in(file, std::ios::binary);
-  return {std::istreambuf_iterator<char>(in), {}};
-}
-
 /// A manifest that tells of a merge is older than the trials by a moment: this takes it back if
 /// they are not stored after all.
 class ManifestBefore {
  public:
   explicit ManifestBefore(const fs::path& folder)
-      : file_(folder / "manifest.json"), text_(text_of(file_)) {}
+      : file_(folder / "manifest.json"), text_(read_whole_file(file_).value_or("")) {}
 
   void restore() const noexcept {
     try {
@@ -139,7 +132,8 @@ Merged merge(const fs::path& folder, const std::vector<fs::path>& others) {
                        "another folder");
     }
     for (const char* name : {"claims.toml", "study.toml"}) {
-      if (fs::exists(first / name)) write_whole_file(folder / name, text_of(first / name));
+      if (fs::exists(first / name))
+        write_whole_file(folder / name, read_whole_file(first / name).value_or(""));
     }
   }
 

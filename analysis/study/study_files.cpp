@@ -1,8 +1,5 @@
 #include "shoal/analysis/study/study_files.hpp"
 
-#include <fstream>
-#include <iterator>
-
 #include "shoal/analysis/study/cell_scenarios.hpp"
 #include "shoal/core/option_place.hpp"
 #include "shoal/core/text.hpp"
@@ -15,11 +12,6 @@ namespace shoal::analysis {
 namespace {
 
 namespace fs = std::filesystem;
-
-std::string text_of(const fs::path& file) {
-  std::ifstream in(file, std::ios::binary);
-  return {std::istreambuf_iterator<char>(in), {}};
-}
 
 // A study may be read from another folder than the one it was written for.
 
@@ -85,7 +77,7 @@ void write_study(const StudyPlan& plan, const fs::path& folder) {
   }
   if (Setting* claims = written.find("claims")) {
     write_whole_file(folder / "claims.toml",
-                     text_of(scenarios::resolved(plan.study().claims_file)));
+                     read_whole_file(scenarios::resolved(plan.study().claims_file)).value());
     claims->value = std::string("claims.toml");
   }
   write_whole_file(folder / "study.toml", to_toml(written));

@@ -127,6 +127,22 @@ std::string with_unit(const std::string& header, const std::string& unit) {
   return header + (header.empty() ? "(" : " (") + unit + ")";
 }
 
+std::string estimate_text(const LaidCell& cell, ColumnKind kind, std::string_view before,
+                          std::string_view after) {
+  std::string text = cell.numbers[0].text();
+  if (cell.best) text = std::string(before) + text + std::string(after);
+  if (cell.numbers.size() == 1) return text;
+  const std::string first = cell.numbers[1].text();
+  if (kind == ColumnKind::plus_minus) text += " ± " + first;
+  if (kind == ColumnKind::deviation) text += " (" + first + ")";
+  if (kind == ColumnKind::between) text += " [" + first + ", " + cell.numbers[2].text() + "]";
+  return text;
+}
+
+std::string superscript(const std::string& mark) {
+  return mark.empty() ? "" : "<sup>" + mark + "</sup>";
+}
+
 std::string on_one_line(std::string text) {
   std::ranges::replace_if(
       text, [](char c) { return c == '\n' || c == '\r' || c == '\t'; }, ' ');

@@ -63,6 +63,13 @@ struct Layout {
 /// `energy (Wh)`.
 std::string with_unit(const std::string& header, const std::string& unit);
 
+/// `77.5 ± 5.6`, of a cell that has numbers; a best value stands between `before` and `after`.
+std::string estimate_text(const LaidCell& cell, ColumnKind kind, std::string_view before,
+                          std::string_view after);
+
+/// A mark in HTML, which Markdown takes, too.
+std::string superscript(const std::string& mark);
+
 /// Line breaks as blanks.
 std::string on_one_line(std::string text);
 
@@ -71,5 +78,6 @@ std::string as_text(const Table& table);
 std::string as_csv(const Table& table);
 std::string as_markdown(const Table& table);
 std::string as_latex(const Table& table);
+std::string as_html(const Table& table);
 
 }  // namespace shoal::analysis

@@ -23,22 +23,10 @@ std::string escaped(const std::string& text) {
   return on_one_line(out);
 }
 
-std::string superscript(const std::string& mark) {
-  return mark.empty() ? "" : "<sup>" + mark + "</sup>";
-}
-
 std::string cell_text(const Cell& cell, const LaidCell& laid, ColumnKind kind) {
   if (const auto* text = std::get_if<std::string>(&cell)) return escaped(*text);
   if (laid.numbers.empty()) return "–" + superscript(laid.mark);
-  std::string text = laid.numbers[0].text();
-  if (laid.best) text = "**" + text + "**";
-  if (laid.numbers.size() > 1) {
-    const std::string first = laid.numbers[1].text();
-    if (kind == ColumnKind::plus_minus) text += " ± " + first;
-    if (kind == ColumnKind::deviation) text += " (" + first + ")";
-    if (kind == ColumnKind::between) text += " [" + first + ", " + laid.numbers[2].text() + "]";
-  }
-  return text + superscript(laid.mark);
+  return estimate_text(laid, kind, "**", "**") + superscript(laid.mark);
 }
 
 /// Pipe tables have one line of headers: the group's comes first.

@@ -10,14 +10,14 @@
 namespace shoal::analysis {
 
 std::string print(const Table& table, TableFormat format) {
-  constexpr std::array writers{as_text, as_csv, as_markdown, as_latex};
+  constexpr std::array writers{as_text, as_csv, as_markdown, as_latex, as_html};
   return writers.at(static_cast<std::size_t>(format))(table);
 }
 
 TableFormat table_format(std::string_view name) {
   using enum TableFormat;
-  static const std::vector<std::string> names{"text", "csv", "markdown", "latex"};
-  constexpr std::array formats{text, csv, markdown, latex};
+  static const std::vector<std::string> names{"text", "csv", "markdown", "latex", "html"};
+  constexpr std::array formats{text, csv, markdown, latex, html};
   const auto found = std::ranges::find(names, name);
   if (found == names.end()) {
     throw InputError("there is no format \"" + std::string(name) + '"' + suggestion(name, names));

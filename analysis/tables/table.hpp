@@ -72,7 +72,7 @@ struct Table {
   std::vector<std::string> notes;  ///< below it: what the uncertainties are, say
 };
 
-enum class TableFormat { text, csv, markdown, latex };
+enum class TableFormat { text, csv, markdown, latex, html };
 
 /// Ends with a line break. Where estimates know their n, a note says it once; those that differ
 /// from most others, or had failures, carry a mark, and a note says what it stands for.
@@ -83,13 +83,14 @@ enum class TableFormat { text, csv, markdown, latex };
 ///    `x_best` where any is. Numbers are in full precision.
 ///  - `markdown`: a pipe table of GitHub. Best values are bold.
 ///  - `latex`: a table environment that needs booktabs and siunitx (2 or 3). Best values are bold.
+///  - `html`: a table element with its caption, in a figure with its notes. Best values are strong.
 ///
 /// Throws std::invalid_argument for a table without columns, rows of another length, columns that
 /// mix kinds, numbers that are not finite, intervals whose ends are swapped, negative counts and
 /// uncertainties, and names that are not unique or not fit for a label.
 std::string print(const Table& table, TableFormat format);
 
-/// Throws InputError, naming the known ones, for anything but text, csv, markdown and latex.
+/// Throws InputError, naming the known ones, for anything else.
 TableFormat table_format(std::string_view name);
 
 }  // namespace shoal::analysis

@@ -174,7 +174,8 @@ TEST_P(GoldenTables, ArePrintedAsBefore) {
   constexpr std::pair<const char*, TableFormat> forms[] = {{"txt", TableFormat::text},
                                                            {"csv", TableFormat::csv},
                                                            {"md", TableFormat::markdown},
-                                                           {"tex", TableFormat::latex}};
+                                                           {"tex", TableFormat::latex},
+                                                           {"html", TableFormat::html}};
   const bool renew = std::getenv("SHOAL_RENEW_TABLES") != nullptr;
   for (const auto& [ending, format] : forms) {
     const std::string path = std::string(SHOAL_SOURCE_DIR "/tests/analysis/golden_tables/") +
