@@ -1,5 +1,6 @@
 #include <nlohmann/json.hpp>
 
+#include "shoal/analysis/build_info.hpp"
 #include "shoal/analysis/cf_unit.hpp"
 #include "shoal/analysis/trial.hpp"
 #include "shoal/core/whole_file.hpp"
@@ -48,6 +49,7 @@ std::string summary_json(const Trial& trial, const std::string& name) {
   summary["scenario"] = name;
   summary["behaviour"] = trial.scenario.behaviour.kind();
   summary["seed"] = trial.scenario.trial.seed;
+  summary["program"] = build_info().program;
   summary["vehicles"] = trial.world->size();
   summary["duration_s"] = trial.scenario.trial.duration_s;
   summary["wall_s"] = trial.wall_s;
@@ -62,7 +64,7 @@ std::string summary_json(const Trial& trial, const std::string& name) {
 void write_trial(const Trial& trial, const std::string& name, const fs::path& folder) {
   require_writable(folder);
   // What stands there of an earlier trial would contradict this one, if this one is cut short.
-  for (const char* earlier : {"summary.json", "run.nc"}) {
+  for (const char* earlier : {"summary.json", "run.nc", "report.html"}) {
     std::error_code ignored;
     fs::remove(folder / earlier, ignored);
   }

@@ -11,6 +11,8 @@ install_packages() {
     wanted=$(sed '/^# tests/,$d; /^#/d' "$list")
   fi
   for package in $wanted; do
+    # Other makers' nodejs brings npm along, and cannot stand beside Debian's.
+    [ "$package" = npm ] && command -v npm >/dev/null && continue
     dpkg-query -W -f '${db:Status-Status}' "$package" 2>/dev/null | grep -q '^installed' ||
       missing+=("$package")
   done

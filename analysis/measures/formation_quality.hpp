@@ -24,6 +24,9 @@ class FormationQuality {
   /// Positions in metres, finite, at least one.
   double of(std::span<const Eigen::Vector2d> positions);
 
+  /// The slot of each position, as the last of() assigned them.
+  std::span<const int> slot_of_position() const { return search_.slot_of_point(); }
+
  private:
   scenarios::QualityOptions::Alignment alignment_;
   solvers::Turns turns_;

@@ -11,6 +11,7 @@ struct RunArguments {
   std::string seed;  ///< as written; empty: the scenario's own
   std::string out;
   int threads = 1;
+  bool report = true;
   std::string problems;  ///< file for the problems posed; empty: do not record them
 };
 
@@ -53,6 +54,7 @@ void merge(const std::string& folder, const std::vector<std::string>& others);
 void export_study(const std::string& folder, const std::string& out);
 void tables(const std::string& folder, bool summary);
 void claims(const std::string& folder);
+void report(const std::string& folder);
 /// Becomes another program, which takes the same arguments.
 void figures(const std::vector<std::string>& arguments);
 

@@ -81,6 +81,7 @@ int main(int argc, char** argv) {
       ->check(CLI::Range(1, 1024));
   run_command->add_option("--record-problems", run.problems,
                           "file for all problems that the behaviour poses, for shoal solve");
+  run_command->add_flag("!--no-report", run.report, "write no report.html");
   run_command->callback([&] { command = [&] { shoal::program::run(run); }; });
 
   shoal::program::SweepArguments sweep;
@@ -191,11 +192,16 @@ int main(int argc, char** argv) {
                    "metres within which two minima are the same")
       ->check(CLI::NonNegativeNumber)
       ->capture_default_str();
-  solve_command->add_option("--format", solve.format, "text, csv, markdown or latex")
+  solve_command->add_option("--format", solve.format, "text, csv, markdown, latex or html")
       ->capture_default_str();
   solve_command->add_option("--profiles", solve.profiles,
                             "CSV file for Dolan and Moré's performance profiles");
   solve_command->callback([&] { command = [&] { shoal::program::solve(solve); }; });
+
+  CLI::App* report_command = app.add_subcommand(
+      "report", "Write report.html, a page to look at, into the folder of a run or a study");
+  report_command->add_option("folder", folder, "what shoal run or shoal sweep wrote")->required();
+  report_command->callback([&] { command = [&] { shoal::program::report(folder); }; });
 
   CLI::App* figures_command = app.add_subcommand(
       "figures", "Draw the figures of a run, as PDF and SVG (matplotlib); --help tells more");

@@ -4,6 +4,7 @@
 
 #include "commands.hpp"
 #include "shoal/analysis/problem_recorder.hpp"
+#include "shoal/analysis/report/run_report.hpp"
 #include "shoal/analysis/trial.hpp"
 #include "shoal/scenarios/toml_file.hpp"
 
@@ -61,14 +62,17 @@ void run(const RunArguments& arguments) {
   const analysis::Trial trial = analysis::run_trial(scenario, settings);
   analysis::write_trial(trial, name, out);
   print_summary(trial, name);
+  if (arguments.report) {
+    for (const std::string& note : analysis::write_run_report(out)) fmt::print("{}\n", note);
+  }
   if (!problems.empty()) {
     const analysis::Corpus corpus = recorder.corpus(scenario, name, trial.world->plan());
     analysis::write_corpus(corpus, problems);
     fmt::print("written: {}, {} situations in which problems were posed\n", problems.string(),
                corpus.situations.size());
   }
-  fmt::print("written: {}/{{scenario.toml,{}summary.json}}\n", out.string(),
-             trial.record ? "run.nc," : "");
+  fmt::print("written: {}/{{scenario.toml,{}summary.json{}}}\n", out.string(),
+             trial.record ? "run.nc," : "", arguments.report ? ",report.html" : "");
 }
 
 }  // namespace shoal::program

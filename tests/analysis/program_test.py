@@ -22,7 +22,7 @@ thrust_distance_ratio_spread path_straightness rotation_disagreement_deg
 rotation_disagreement_first_hour_deg""".split()
 # Of trials with a way-point, or vehicles that estimate their states.
 ELSEWHERE = """arrived_vehicles stranded_share arrival_first_s arrival_last_s arrival_spread_s clearance_min_m
-cell_error_rms_m cell_error_worst_m cell_error_final_m control_effort_m_s position_error_rms_m
+cell_error_rms_m cell_error_worst_m cell_error_final_m control_effort_m_s outside_envelope_share position_error_rms_m
 speed_error_rms_m_s heading_error_rms_deg nees_mean nees_inside_share fault_share
 outlier_share""".split()
 # What five minutes are too short for.
@@ -34,7 +34,7 @@ SERIES = {
     "thrust_time_ratio_min": "1", "thrust_time_ratio_max": "1",
     "thrust_distance_ratio_mean": "1", "thrust_distance_ratio_min": "1",
     "thrust_distance_ratio_max": "1", "rotation_disagreement_deg": "degree"}
-BESIDE = ["scenario", "behaviour", "seed", "vehicles", "duration_s", "wall_s",
+BESIDE = ["scenario", "behaviour", "seed", "program", "vehicles", "duration_s", "wall_s",
           "vehicle_seconds_per_wall_s", "metrics"]
 BEHAVIOURS = ["assignment_registration", "attraction_repulsion", "pairwise_referencing",
               "rigid_registration"]
@@ -176,10 +176,10 @@ class Trials(Desk):
         self.assertIn(f'[{path}]\nkind = "nlopt.mma"\n', by_hand)
         self.assertIn(f"[{path}.nlopt.mma]\nmax_evaluations = 31\n", by_hand)
 
-    def test_a_trial_leaves_its_scenario_its_record_and_its_summary(self):
+    def test_a_trial_leaves_its_scenario_record_summary_and_report(self):
         summary = self.run_trial("redsea_square", "--set", "trial.duration_s=300")
         self.assertEqual(self.files(), {"ok.toml", "out/scenario.toml", "out/run.nc",
-                                        "out/summary.json"})
+                                        "out/summary.json", "out/report.html"})
         self.assertEqual(list(summary), BESIDE)
         self.assertEqual(set(summary["metrics"]), set(METRICS + ELSEWHERE))
         self.assertEqual((summary["scenario"], summary["behaviour"], summary["vehicles"]),

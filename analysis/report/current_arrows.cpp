@@ -1,0 +1,92 @@
+#include "shoal/analysis/report/current_arrows.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <nlohmann/json.hpp>
+#include <vector>
+
+#include "shoal/analysis/report/packed.hpp"
+#include "shoal/core/error.hpp"
+
+namespace shoal::analysis {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr int along_longer_side = 24;
+constexpr int most_instants = 49;
+
+struct Axis {
+  std::vector<double> places;
+
+  /// Multiples of the spacing, so that neighbouring pages agree.
+  Axis(double from, double to, double spacing) {
+    for (double k = std::floor(from / spacing); k <= std::ceil(to / spacing); ++k) {
+      places.push_back(k * spacing);
+    }
+  }
+};
+
+struct Field {
+  std::vector<double> x, y, u, v;
+};
+
+/// The field at one time; NaN where the current knows none.
+void sample(const scenarios::Current& current, double time_s, Field& field) {
+  try {
+    current.sample(time_s, field.x, field.y, field.u, field.v);
+  } catch (const InputError&) {
+    for (std::size_t k = 0; k < field.x.size(); ++k) {
+      const auto one = [k](std::vector<double>& of) { return std::span(of).subspan(k, 1); };
+      try {
+        current.sample(time_s, one(field.x), one(field.y), one(field.u), one(field.v));
+      } catch (const InputError&) {
+        field.u[k] = field.v[k] = std::numeric_limits<double>::quiet_NaN();
+      }
+    }
+  }
+}
+
+}  // namespace
+
+Json current_arrows(const scenarios::Current& current, const Region& region, double duration_s) {
+  const double side = std::max({region.east - region.west, region.north - region.south, 100.0});
+  const double spacing = side / along_longer_side;
+  const double beyond = 0.25 * side;
+  const Axis east(region.west - beyond, region.east + beyond, spacing);
+  const Axis north(region.south - beyond, region.north + beyond, spacing);
+  Field field;
+  for (const double y : north.places) {
+    for (const double x : east.places) {
+      field.x.push_back(x);
+      field.y.push_back(y);
+    }
+  }
+  field.u.resize(field.x.size());
+  field.v.resize(field.x.size());
+
+  std::vector<double> times, u, v;
+  double fastest = 0.0;
+  for (int k = 0; k < most_instants; ++k) {
+    const double time_s = duration_s * k / (most_instants - 1);
+    sample(current, time_s, field);
+    for (std::size_t p = 0; p < field.u.size(); ++p) {
+      const double speed = std::hypot(field.u[p], field.v[p]);
+      if (std::isfinite(speed)) fastest = std::max(fastest, speed);
+    }
+    times.push_back(time_s);
+    u.insert(u.end(), field.u.begin(), field.u.end());
+    v.insert(v.end(), field.v.begin(), field.v.end());
+  }
+  if (fastest == 0.0) return nullptr;
+  return {{"x", east.places},
+          {"y", north.places},
+          {"spacing", spacing},
+          {"fastest", fastest},
+          {"times", packed_floats(times)},
+          {"u", packed_levels(u)},
+          {"v", packed_levels(v)}};
+}
+
+}  // namespace shoal::analysis

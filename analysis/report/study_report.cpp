@@ -1,0 +1,91 @@
+#include "shoal/analysis/report/study_report.hpp"
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "shoal/analysis/report/packed.hpp"
+#include "shoal/analysis/report/page.hpp"
+#include "shoal/analysis/study/study_files.hpp"
+#include "shoal/analysis/study/study_tables.hpp"
+#include "shoal/core/whole_file.hpp"
+
+namespace shoal::analysis {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+
+Json claim(const JudgedClaim& judged) {
+  Json contrasts = Json::array();
+  for (const ContrastResult& contrast : judged.result.contrasts) {
+    contrasts.push_back(contrast_text(contrast));
+  }
+  const bool contradicted = judged.result.verdict == Verdict::contradicted;
+  return {{"section", judged.claim.section},
+          {"says", judged.claim.says},
+          {"verdict", name_of(judged.result.verdict)},
+          {"contrasts", contrasts},
+          {"cause", contradicted ? judged.claim.cause : ""},
+          {"replications_needed", judged.result.replications_needed
+                                      ? Json(*judged.result.replications_needed)
+                                      : Json(nullptr)}};
+}
+
+/// Which trials are missing from the numbers, and why.
+Json failures(const StudyResults& results) {
+  Json failed = Json::array();
+  for (std::size_t i = 0; i < results.plan().trials(); ++i) {
+    if (results.state(i) != StudyResults::State::failed) continue;
+    failed.push_back(
+        {{"trial", results.plan().title(results.plan().trial(i))}, {"reason", results.failure(i)}});
+  }
+  return failed;
+}
+
+/// The SVG pictures of a folder, by name, as images that stand in the page.
+Json pictures(const fs::path& folder) {
+  std::vector<fs::path> files;
+  std::error_code none;
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder, none)) {
+    if (entry.path().extension() == ".svg") files.push_back(entry.path());
+  }
+  std::ranges::sort(files);
+  Json images = Json::array();
+  for (const fs::path& file : files) {
+    const std::optional<std::string> svg = read_whole_file(file);
+    if (!svg) throw SystemError("cannot read " + file.string());
+    const auto* bytes = reinterpret_cast<const std::uint8_t*>(svg->data());
+    images.push_back(
+        {{"name", file.stem().string()},
+         {"image", "data:image/svg+xml;base64," + packed_bytes(std::span(bytes, svg->size()))}});
+  }
+  return images;
+}
+
+}  // namespace
+
+void write_study_report(const fs::path& folder) {
+  const StudyPlan plan = stored_plan(folder);
+  const StudyResults results = read_results(plan, folder);
+  using enum StudyResults::State;
+  const std::string title = plan.study().title;
+  Json data{{"title", title.empty() ? fs::absolute(folder).filename().string() : title},
+            {"done", results.count(done)},
+            {"failed", results.count(failed)},
+            {"missing", results.count(missing)},
+            {"program", results.program()},
+            {"failures", failures(results)},
+            {"figures", pictures(folder / "figures")},
+            {"study", read_whole_file(folder / "study.toml").value()},
+            {"manifest",
+             Json::parse(read_whole_file(folder / "manifest.json").value_or(""), nullptr, false)}};
+  data["tables"] = Json::array();
+  for (const Table& table : study_tables(results)) {
+    data["tables"].push_back({{"name", table.name}, {"html", print(table, TableFormat::html)}});
+  }
+  data["claims"] = Json::array();
+  for (const JudgedClaim& judged : judged_claims(results)) data["claims"].push_back(claim(judged));
+  write_whole_file(folder / "report.html", whole_page("study.html", data));
+}
+
+}  // namespace shoal::analysis

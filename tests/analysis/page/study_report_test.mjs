@@ -1,0 +1,102 @@
+// The report of a study in a real browser.
+
+import assert from "node:assert/strict";
+import {after, before, test} from "node:test";
+import {mkdirSync, writeFileSync} from "node:fs";
+import {join} from "node:path";
+import {launch, open, shoal, workFolder} from "./browser.mjs";
+
+const folder = workFolder();
+const report = join(folder, "out", "report.html");
+let browser;
+
+const STUDY = `title = "two <b>behaviours</b> & a </script>"
+claims = "claims.toml"
+scenario = "construction_square"
+replications = 3
+set = { trial.duration_s = 300 }
+[[factor]]
+name = "behaviour"
+key = "behaviour.kind"
+values = ["rigid_registration", "pairwise_referencing"]
+[[table]]
+name = "energy"
+caption = "Energy & more"
+rows = ["behaviour"]
+metrics = ["energy_mean_wh", "quality_final_m"]
+[[table]]
+name = "against_time"
+columns = ["behaviour"]
+series = ["quality"]
+every = 10
+`;
+const CLAIMS = `[[claim]]
+section = "1"
+says = "Rigid registration spends less than 0 Wh"
+where = { behaviour = "rigid_registration" }
+metric = "energy_mean_wh"
+cause = "energy cannot be < 0"
+test = { kind = "between", between = { at_least = -2, at_most = -1 } }
+[[claim]]
+section = "2"
+says = "Rigid registration spends something"
+where = { behaviour = "rigid_registration" }
+metric = "energy_mean_wh"
+test = { kind = "between", between = { at_least = 0, at_most = 100 } }
+`;
+
+before(async () => {
+  writeFileSync(join(folder, "study.toml"), STUDY);
+  writeFileSync(join(folder, "claims.toml"), CLAIMS);
+  shoal("sweep", join(folder, "study.toml"), "--out", join(folder, "out"));
+  mkdirSync(join(folder, "out", "figures"));
+  writeFileSync(join(folder, "out", "figures", "energy_curve.svg"),
+                '<svg xmlns="http://www.w3.org/2000/svg" width="80" height="40"><path d="M0 0L9 9"/></svg>');
+  shoal("report", join(folder, "out"));
+  browser = await launch();
+});
+after(() => browser.close());
+
+test("shows tables, claims, figures and who ran it", async () => {
+  const page = await open(browser, report);
+  assert.equal(await page.textContent("h1"), "two <b>behaviours</b> & a </script>");
+  assert.equal(await page.textContent("caption"), "Energy & more");
+  assert.equal(await page.locator("#tables table").count(), 2);
+  const rows = await page.locator("#tables table").first().locator("tbody tr").count();
+  assert.equal(rows, 2);
+  assert.equal(await page.locator("#claims tr").count(), 2);
+  assert.match(await page.textContent("#claims"), /Likely cause: energy cannot be < 0/);
+  assert.match(await page.textContent("#counts"), /1 reproduced, 1 contradicted, 0 undecided/);
+  assert.equal(await page.$eval("#figures img", image => image.naturalWidth > 0), true);
+  assert.match(await page.textContent("#history"), /Commit/);
+  assert.match(await page.textContent("#study"), /construction_square/);
+  page.quiet();
+});
+
+test("claims can be chosen by their verdict", async () => {
+  const page = await open(browser, report);
+  const shown = () => page.$$eval("#claims tr", rows => rows.filter(row => !row.hidden).length);
+  for (const [verdict, count] of [["reproduced", 1], ["undecided", 0], ["all", 2]]) {
+    await page.selectOption("#verdicts", verdict);
+    assert.equal(await shown(), count, verdict);
+  }
+  page.quiet();
+});
+
+test("a long table is closed, and opens by its name in the contents", async () => {
+  const page = await open(browser, report);
+  const isOpen = () => page.$eval("#tables details", details => details.open);
+  assert.equal(await isOpen(), false);
+  await page.click("#contents a >> text=against time");
+  assert.equal(await isOpen(), true);
+  page.quiet();
+});
+
+test("fits on a phone, light and dark", async () => {
+  for (const colorScheme of ["light", "dark"]) {
+    const page = await open(browser, report, {viewport: {width: 375, height: 740}, colorScheme});
+    const wide = await page.evaluate(() => document.scrollingElement.scrollWidth);
+    assert.ok(wide <= 375, `${wide} pixels`);
+    page.quiet();
+  }
+});
