@@ -29,10 +29,10 @@ using BehaviourHook = std::function<std::shared_ptr<const formations::Behaviour>
 
 /// What one vehicle has done since mission start.
 struct Logbook {
-  double thrusting_s = 0.0;        ///< time under a command to move (not latched as drifting)
-  double distance_m = 0.0;         ///< over ground
-  double thrust_distance_m = 0.0;  ///< of that, while moving through the water
-  double outside_envelope_s = 0.0;   ///< moved in a way from which no command is admissible
+  double thrusting_s = 0.0;         ///< time under a command to move (not latched as drifting)
+  double distance_m = 0.0;          ///< over ground
+  double thrust_distance_m = 0.0;   ///< of that, while moving through the water
+  double outside_envelope_s = 0.0;  ///< moved in a way from which no command is admissible
   std::int64_t pings_sent = 0;
 };
 
