@@ -29,7 +29,21 @@ TrialOutcome trial_outcome_of_worker(const std::string& program,
                                      const scenarios::Scenario& scenario,
                                      const std::vector<std::string>& series);
 
-/// The other end: reads a request from stdin and writes the outcome to stdout.
+// A trial that another process runs, perhaps on another machine: what it is asked and what it
+// answers, as texts.
+
+std::string trial_request(const scenarios::Scenario& scenario,
+                          const std::vector<std::string>& series);
+
+/// Runs what is asked. Throws InputError if whoever asks runs another version of shoal: the numbers
+/// could differ.
+std::string trial_answer(const std::string& request);
+
+/// Throws SystemError if it is none.
+TrialOutcome parsed_answer(const std::string& answer);
+
+/// The other end of trial_outcome_of_worker(): reads a request from stdin and writes its answer to
+/// stdout.
 void serve_as_worker();
 
 }  // namespace shoal::analysis

@@ -10,6 +10,7 @@
 #include <iterator>
 #include <nlohmann/json.hpp>
 
+#include "shoal/analysis/build_info.hpp"
 #include "shoal/analysis/study/trial_outcome.hpp"
 #include "shoal/scenarios/toml_file.hpp"
 
@@ -17,43 +18,6 @@ namespace shoal::analysis {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-std::string request_text(const scenarios::Scenario& scenario,
-                         const std::vector<std::string>& series) {
-  return Json{{"scenario", to_toml(scenarios::resolved_scenario(scenario))}, {"series", series}}
-      .dump();
-}
-
-std::string outcome_text(const TrialOutcome& outcome) {
-  Json json{{"failure", outcome.failure}, {"wall_s", outcome.wall_s}};
-  Json& metrics = json["metrics"] = Json::array();
-  for (const auto& [name, value] : outcome.metrics) {
-    metrics.push_back({name, value ? Json(*value) : Json(nullptr)});
-  }
-  Json& series = json["series"] = Json::array();
-  for (const scenarios::Series& s : outcome.series) {
-    series.push_back({s.name, s.unit, s.meaning, s.time_s, s.values});
-  }
-  return json.dump();
-}
-
-TrialOutcome parsed_outcome(const std::string& text) {
-  const Json json = Json::parse(text);
-  TrialOutcome outcome;
-  outcome.failure = json.at("failure").get<std::string>();
-  outcome.wall_s = json.at("wall_s").get<double>();
-  for (const Json& metric : json.at("metrics")) {
-    const Json& value = metric.at(1);
-    outcome.metrics.emplace_back(
-        metric.at(0).get<std::string>(),
-        value.is_null() ? std::nullopt : std::optional(value.get<double>()));
-  }
-  for (const Json& s : json.at("series")) {
-    outcome.series.push_back({s.at(0), s.at(1), s.at(2), s.at(3).get<std::vector<double>>(),
-                              s.at(4).get<std::vector<double>>()});
-  }
-  return outcome;
-}
 
 /// One direction of talk with a child. Neither end is inherited by children of other threads.
 class Pipe {
@@ -117,6 +81,54 @@ std::string how_it_ended(int status) {
 
 }  // namespace
 
+std::string trial_request(const scenarios::Scenario& scenario,
+                          const std::vector<std::string>& series) {
+  return Json{{"program", build_info().program},
+              {"scenario", to_toml(scenarios::resolved_scenario(scenario))},
+              {"series", series}}
+      .dump();
+}
+
+std::string trial_answer(const std::string& request) {
+  const Json asked = Json::parse(request);
+  const std::string program = asked.at("program").get<std::string>();
+  if (program != build_info().program) {
+    throw InputError("shoal " + program + " asks for a trial, and this is " + build_info().program +
+                     "; install the same shoal on all machines");
+  }
+  const Setting root = scenarios::parse_toml(asked.at("scenario").get<std::string>(), "scenario");
+  const TrialOutcome outcome = trial_outcome(scenarios::read_scenario(root), asked.at("series"));
+  Json json{{"failure", outcome.failure}, {"wall_s", outcome.wall_s}};
+  Json& metrics = json["metrics"] = Json::array();
+  for (const auto& [name, value] : outcome.metrics) {
+    metrics.push_back({name, value ? Json(*value) : Json(nullptr)});
+  }
+  Json& series = json["series"] = Json::array();
+  for (const scenarios::Series& s : outcome.series) {
+    series.push_back({s.name, s.unit, s.meaning, s.time_s, s.values});
+  }
+  return json.dump();
+}
+
+TrialOutcome parsed_answer(const std::string& answer) {
+  const Json json = Json::parse(answer, nullptr, false);
+  if (!json.is_object()) throw SystemError("a worker gave no answer that can be read");
+  TrialOutcome outcome;
+  outcome.failure = json.at("failure").get<std::string>();
+  outcome.wall_s = json.at("wall_s").get<double>();
+  for (const Json& metric : json.at("metrics")) {
+    const Json& value = metric.at(1);
+    outcome.metrics.emplace_back(
+        metric.at(0).get<std::string>(),
+        value.is_null() ? std::nullopt : std::optional(value.get<double>()));
+  }
+  for (const Json& s : json.at("series")) {
+    outcome.series.push_back({s.at(0), s.at(1), s.at(2), s.at(3).get<std::vector<double>>(),
+                              s.at(4).get<std::vector<double>>()});
+  }
+  return outcome;
+}
+
 TrialOutcome trial_outcome_of_worker(const std::string& program,
                                      const scenarios::Scenario& scenario,
                                      const std::vector<std::string>& series) {
@@ -137,24 +149,21 @@ TrialOutcome trial_outcome_of_worker(const std::string& program,
   }
   request.close_reader();
   answer.close_writer();
-  const bool asked = request.say(request_text(scenario, series));
+  const bool asked = request.say(trial_request(scenario, series));
   request.close_writer();
   const std::string said = answer.hear();
   int status = 0;
   while (::waitpid(child, &status, 0) < 0 && errno == EINTR) {
   }
-  if (asked && WIFEXITED(status) && WEXITSTATUS(status) == 0) return parsed_outcome(said);
+  if (asked && WIFEXITED(status) && WEXITSTATUS(status) == 0) return parsed_answer(said);
   TrialOutcome outcome;
   outcome.failure = how_it_ended(status);
   return outcome;
 }
 
 void serve_as_worker() {
-  const std::string text{std::istreambuf_iterator<char>(std::cin), {}};
-  const Json request = Json::parse(text);
-  const Setting root = scenarios::parse_toml(request.at("scenario").get<std::string>(), "scenario");
-  const TrialOutcome outcome = trial_outcome(scenarios::read_scenario(root), request.at("series"));
-  std::cout << outcome_text(outcome) << std::flush;
+  const std::string request{std::istreambuf_iterator<char>(std::cin), {}};
+  std::cout << trial_answer(request) << std::flush;
 }
 
 }  // namespace shoal::analysis
