@@ -71,15 +71,7 @@ void read_shard(const std::string& text, analysis::SweepSettings& settings) {
 
 analysis::StudyPlan plan_of(const SweepArguments& arguments) {
   Setting root = scenarios::read_toml(analysis::find_study(arguments.study));
-  if (arguments.replications > 0) {
-    root.at_or_new("replications").value = arguments.replications;
-    if (Setting* groups = root.find("group"); groups && !groups->is_table()) {
-      for (Setting& group : std::get<Setting::List>(groups->value)) {
-        std::erase_if(group.table(),
-                      [](const auto& entry) { return entry.first == "replications"; });
-      }
-    }
-  }
+  if (arguments.replications > 0) analysis::set_replications(root, arguments.replications);
   analysis::StudyPlan plan(analysis::read_study(root));
   analysis::require_answerable(plan);
   return plan;

@@ -29,12 +29,11 @@ std::string count_text(const std::vector<JudgedClaim>& claims) {
                      counts[Verdict::undecided]);
 }
 
-void write_all(const StudyResults& results, std::vector<analysis::Table> tables,
+void write_all(const StudyResults& results, const std::vector<analysis::Table>& tables,
                const std::vector<JudgedClaim>& claims, const std::string& folder) {
-  if (!claims.empty()) tables.push_back(analysis::claims_table(claims));
-  analysis::write_tables(tables, folder);
+  const std::size_t written = analysis::write_tables(tables, claims, folder);
   print_state(results);
-  fmt::print("written: {}/tables, {} tables as .tex, .csv and .md\n", folder, tables.size());
+  fmt::print("written: {}/tables, {} tables as .tex, .csv and .md\n", folder, written);
   if (!claims.empty()) fmt::print("{} (shoal claims {})\n", count_text(claims), folder);
 }
 

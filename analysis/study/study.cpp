@@ -263,6 +263,15 @@ Study read_study(const Setting& root) {
   return study;
 }
 
+void set_replications(Setting& root, std::int64_t replications) {
+  root.at_or_new("replications").value = replications;
+  Setting* groups = root.find("group");
+  if (!groups || groups->is_table()) return;
+  for (Setting& group : std::get<Setting::List>(groups->value)) {
+    std::erase_if(group.table(), [](const auto& entry) { return entry.first == "replications"; });
+  }
+}
+
 bool looks_like_a_study(const Setting& root) {
   const Schema& study = schema_of<Study>();
   return std::ranges::any_of(root.table(), [&](const auto& entry) {

@@ -122,6 +122,9 @@ struct Study {
 /// Throws InputError.
 Study read_study(const Setting& root);
 
+/// Sets the replications of a study that is yet to be read, those of its groups included.
+void set_replications(Setting& root, std::int64_t replications);
+
 /// Whether a file is meant as a study and not as a scenario: by the names that stand in it.
 bool looks_like_a_study(const Setting& root);
 

@@ -129,7 +129,9 @@ Table claims_table(const std::vector<JudgedClaim>& claims) {
   return table;
 }
 
-void write_tables(const std::vector<Table>& tables, const fs::path& folder) {
+std::size_t write_tables(std::vector<Table> tables, const std::vector<JudgedClaim>& claims,
+                         const fs::path& folder) {
+  if (!claims.empty()) tables.push_back(claims_table(claims));
   const fs::path place = folder / "tables";
   require_writable(place);
   std::set<fs::path> written;
@@ -147,6 +149,7 @@ void write_tables(const std::vector<Table>& tables, const fs::path& folder) {
     const bool a_table = extension == ".tex" || extension == ".csv" || extension == ".md";
     if (a_table && !written.contains(entry.path())) fs::remove(entry.path());
   }
+  return tables.size();
 }
 
 }  // namespace shoal::analysis

@@ -27,7 +27,12 @@ class Crew {
       std::vector<std::jthread> threads;
       running_ = jobs;
       for (std::size_t j = 0; j < jobs; ++j) threads.emplace_back([this] { work(); });
-      report_until_done();
+      try {
+        report_until_done();
+      } catch (...) {  // who looks on wants no more of it
+        stop_ = true;
+        throw;
+      }
     }
     if (broken_) std::rethrow_exception(broken_);
   }

@@ -1,0 +1,37 @@
+#pragma once
+
+#include <pybind11/eigen.h>
+#include <pybind11/numpy.h>
+#include <pybind11/pybind11.h>
+#include <pybind11/stl.h>
+
+#include <vector>
+
+#include "shoal/core/setting.hpp"
+
+namespace shoal::python {
+
+namespace py = pybind11;
+
+/// A dict as a tree of settings: keys may be dotted, later ones go over earlier ones. Takes bool,
+/// int, float, str, paths, numpy's numbers, sequences, dicts, and what has a method `_setting_`.
+/// Throws InputError for anything else.
+Setting to_setting(py::handle value);
+
+py::object to_python(const Setting& setting);
+
+/// Rows (x, y) in metres. Throws InputError unless the array has two columns and is finite.
+std::vector<Eigen::Vector2d> points(
+    const py::array_t<double, py::array::c_style | py::array::forcecast>& array, const char* what);
+
+using Array = py::array_t<double, py::array::c_style | py::array::forcecast>;
+
+// What each file adds to the module.
+void add_trials(py::module_& module);
+void add_studies(py::module_& module);
+void add_planners(py::module_& module);
+void add_potentials(py::module_& module);
+void add_problems(py::module_& module);
+void add_catalogue(py::module_& module);
+
+}  // namespace shoal::python

@@ -1,0 +1,271 @@
+#include <chrono>
+#include <cmath>
+
+#include "conversions.hpp"
+#include "shoal/formations/behaviour.hpp"
+#include "shoal/solvers/loss.hpp"
+#include "shoal/solvers/matching/matching.hpp"
+#include "shoal/solvers/registration/registration.hpp"
+#include "shoal/solvers/solver.hpp"
+
+namespace shoal::python {
+namespace {
+
+using solvers::Problem;
+using solvers::Solution;
+using Vector = Eigen::VectorXd;
+
+/// A cost of Python's. Derivatives that are not given are central differences: of the gradient
+/// where there is one, else of the cost.
+class PythonCost final : public solvers::Objective {
+ public:
+  struct Functions {
+    py::object cost, gradient, hessian;  // None where not given
+  };
+
+  PythonCost(Functions functions, int dimension)
+      : functions_(std::make_shared<Functions>(std::move(functions))), dimension_(dimension) {}
+
+  double evaluate(const double* x, double* gradient, double* hessian) const override {
+    const py::gil_scoped_acquire held;
+    const Vector place = Eigen::Map<const Vector>(x, dimension_);
+    if (gradient) Eigen::Map<Vector>(gradient, dimension_) = slope(place);
+    if (hessian) Eigen::Map<Eigen::MatrixXd>(hessian, dimension_, dimension_) = curvature(place);
+    return value(place);
+  }
+
+  std::pair<Objective*, bool> copy_into(void* storage, std::size_t size) const override {
+    return solvers::copied_into(*this, storage, size);
+  }
+
+ private:
+  double value(const Vector& x) const { return functions_->cost(x).cast<double>(); }
+
+  Vector slope(const Vector& x) const {
+    if (!functions_->gradient.is_none()) {
+      const auto given = functions_->gradient(x).cast<Vector>();
+      if (given.size() != dimension_) {
+        throw InputError("the gradient has " + std::to_string(given.size()) + " entries for " +
+                         std::to_string(dimension_) + " unknowns");
+      }
+      return given;
+    }
+    Vector g(dimension_);
+    for (int i = 0; i < dimension_; ++i) {
+      const double h = step(x[i], 1.0 / 3.0);
+      g[i] = (value(moved(x, i, h)) - value(moved(x, i, -h))) / (2.0 * h);
+    }
+    return g;
+  }
+
+  Eigen::MatrixXd curvature(const Vector& x) const {
+    if (!functions_->hessian.is_none()) {
+      const auto given = functions_->hessian(x).cast<Eigen::MatrixXd>();
+      if (given.rows() != dimension_ || given.cols() != dimension_) {
+        throw InputError("the Hessian is no matrix of " + std::to_string(dimension_) + " by " +
+                         std::to_string(dimension_));
+      }
+      return given;
+    }
+    Eigen::MatrixXd H(dimension_, dimension_);
+    const bool exact_slope = !functions_->gradient.is_none();
+    for (int i = 0; i < dimension_; ++i) {
+      const double h = step(x[i], exact_slope ? 1.0 / 3.0 : 1.0 / 6.0);
+      H.col(i) = (slope(moved(x, i, h)) - slope(moved(x, i, -h))) / (2.0 * h);
+    }
+    return 0.5 * (H + H.transpose());
+  }
+
+  static Vector moved(Vector x, int i, double by) {
+    x[i] += by;
+    return x;
+  }
+  static double step(double x, double power) {
+    return std::pow(std::numeric_limits<double>::epsilon(), power) * std::max(1.0, std::abs(x));
+  }
+
+  std::shared_ptr<const Functions> functions_;
+  int dimension_;
+};
+
+/// Three points of a problem, with whoever the cost belongs to.
+struct HeldProblem {
+  Problem problem;
+  std::shared_ptr<const void> owner;  // a behaviour whose parts the cost uses
+};
+
+HeldProblem python_problem(const py::object& cost, const Vector& start, const py::object& gradient,
+                           const py::object& hessian, const std::optional<Vector>& lower,
+                           const std::optional<Vector>& upper) {
+  if (start.size() < 1 || start.size() > Problem::max_dimension) {
+    throw InputError("a problem has 1 to " + std::to_string(Problem::max_dimension) +
+                     " unknowns; this start has " + std::to_string(start.size()));
+  }
+  if (lower.has_value() != upper.has_value()) {
+    throw InputError("bounds come in pairs: give lower and upper, or neither");
+  }
+  if (lower && (lower->size() != start.size() || upper->size() != start.size())) {
+    throw InputError("bounds must have as many entries as the start");
+  }
+  HeldProblem held{
+      Problem(start, PythonCost({cost, gradient, hessian}, static_cast<int>(start.size()))), {}};
+  if (lower) {
+    held.problem.lower = *lower;
+    held.problem.upper = *upper;
+  }
+  return held;
+}
+
+/// The smooth problems that a behaviour poses to a vehicle at the origin.
+std::vector<HeldProblem> posed(const std::string& kind, const py::dict& options,
+                               const Array& neighbours, const formations::Plan& plan, int own_slot,
+                               const std::vector<int>& slots) {
+  const std::shared_ptr<const formations::Behaviour> behaviour =
+      Registry<formations::Behaviour>::instance().make(kind, to_setting(options),
+                                                       "behaviour." + kind);
+  const std::vector<Eigen::Vector2d> places = points(neighbours, "neighbours");
+  if (!slots.empty() && slots.size() != places.size()) {
+    throw InputError("slots must be as many as neighbours, or none");
+  }
+  std::vector<formations::Neighbour> around;
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    around.push_back({places[i], 0.0, slots.empty() ? formations::anonymous : slots[i]});
+  }
+  struct Viewer final : formations::ProblemViewer {
+    std::vector<HeldProblem>* seen = nullptr;
+    std::shared_ptr<const void> owner;
+    void see(const Problem& problem) override { seen->push_back({problem, owner}); }
+    void see(const solvers::RegistrationProblem&) override {}
+    void see(const solvers::MatchingProblem&) override {}
+  };
+  std::vector<HeldProblem> seen;
+  Viewer viewer;
+  viewer.seen = &seen;
+  viewer.owner = behaviour;
+  behaviour->pose({.neighbours = around, .own_slot = own_slot}, plan, viewer);
+  return seen;
+}
+
+Solution solve(const HeldProblem& held, const std::string& kind, const py::dict& options) {
+  const auto solver =
+      Registry<solvers::Solver>::instance().make(kind, to_setting(options), "solver." + kind);
+  if (const auto why = solver->refuses(held.problem)) throw InputError(kind + " " + *why);
+  return solver->solve(held.problem);
+}
+
+py::dict registered(const Array& from, const Array& to, const std::optional<Vector>& weights,
+                    const std::string& kind, const std::string& loss, const py::dict& options,
+                    const py::dict& loss_options) {
+  const std::vector<Eigen::Vector2d> sources = points(from, "from_points");
+  const std::vector<Eigen::Vector2d> places = points(to, "to_points");
+  if (sources.size() != places.size() ||
+      (weights && static_cast<std::size_t>(weights->size()) != sources.size())) {
+    throw InputError("from_points, to_points and weights must be equally many");
+  }
+  std::vector<solvers::PointPair> pairs;
+  for (std::size_t i = 0; i < sources.size(); ++i) {
+    pairs.push_back(
+        {sources[i], places[i], weights ? (*weights)[static_cast<Eigen::Index>(i)] : 1.0});
+  }
+  const auto measure =
+      Registry<solvers::Loss>::instance().make(loss, to_setting(loss_options), "loss." + loss);
+  const solvers::RegistrationProblem problem{pairs, measure.get()};
+  const auto solver = Registry<solvers::RegistrationSolver>::instance().make(
+      kind, to_setting(options), "registration." + kind);
+  if (const auto why = solver->refuses(problem)) throw InputError(kind + " " + *why);
+  const solvers::RegistrationSolution solution = solver->solve(problem);
+  py::dict answer;
+  answer["angle_rad"] = solution.T_to_from.angle();
+  answer["translation"] = solution.T_to_from.translation;
+  answer["cost"] = solution.cost;
+  answer["status"] = name_of(solution.status);
+  answer["usable"] = solution.usable();
+  return answer;
+}
+
+py::dict matched(const Array& seen, const Array& slots, double ownship_weight,
+                 double delta_theta_deg, const std::string& kind) {
+  const std::vector<Eigen::Vector2d> places = points(seen, "points");
+  const std::vector<Eigen::Vector2d> plan = points(slots, "slots");
+  const auto matcher = Registry<solvers::Matcher>::instance().make(kind, {}, "matching." + kind);
+  const solvers::MatchingSolution solution = matcher->solve({.points = places,
+                                                             .slots = plan,
+                                                             .ownship_weight = ownship_weight,
+                                                             .delta_theta_deg = delta_theta_deg});
+  py::dict answer;
+  answer["slots"] = std::vector<int>(solution.slot_of_point.begin(), solution.slot_of_point.end());
+  answer["rotation_rad"] = solution.rotation;
+  answer["cost"] = solution.cost;
+  answer["usable"] = solution.usable();
+  return answer;
+}
+
+}  // namespace
+
+void add_problems(py::module_& module) {
+  py::class_<HeldProblem>(
+      module, "Problem",
+      "A smooth problem: minimise cost(x) from a start, inside bounds if there are any. Up to six\n"
+      "unknowns. cost takes an array; gradient and hessian, where not given, are central "
+      "differences.")
+      .def(py::init(&python_problem), py::arg("cost"), py::arg("start"), py::kw_only(),
+           py::arg("gradient") = py::none(), py::arg("hessian") = py::none(),
+           py::arg("lower") = std::nullopt, py::arg("upper") = std::nullopt)
+      .def_property_readonly("start",
+                             [](const HeldProblem& held) -> Vector { return held.problem.start; })
+      .def(
+          "evaluate",
+          [](const HeldProblem& held, const Vector& x) {
+            const int n = held.problem.dimension();
+            if (x.size() != n) {
+              throw InputError("x has " + std::to_string(x.size()) + " entries for " +
+                               std::to_string(n) + " unknowns");
+            }
+            Vector gradient(n);
+            Eigen::MatrixXd hessian(n, n);
+            const double cost = held.problem.evaluate(x.data(), gradient.data(), hessian.data());
+            return py::make_tuple(cost, gradient, hessian);
+          },
+          py::arg("x"), "Cost, gradient and Hessian.");
+
+  py::class_<Solution>(module, "Solution",
+                       "How a solve ended. status is our own check of the point and never the\n"
+                       "backend's word; x is NaN until set.")
+      .def_property_readonly("x", [](const Solution& s) -> Vector { return s.x; })
+      .def_readonly("cost", &Solution::cost)
+      .def_property_readonly("status", [](const Solution& s) { return name_of(s.status); })
+      .def_property_readonly("usable", &Solution::usable)
+      .def_property_readonly("backend_says",
+                             [](const Solution& s) { return std::string(s.backend_says); })
+      .def_readonly("evaluations", &Solution::evaluations)
+      .def_readonly("violation", &Solution::violation)
+      .def_readonly("seconds", &Solution::seconds)
+      .def("__repr__", [](const Solution& s) {
+        return "<shoal.Solution " + std::string(name_of(s.status)) + ", cost " +
+               std::string(py::str(py::float_(s.cost))) + ", " + std::to_string(s.evaluations) +
+               " evaluations>";
+      });
+
+  module.def(
+      "solve", &solve, py::arg("problem"), py::arg("solver") = "newton",
+      py::arg("options") = py::dict(),
+      "Minimises a problem. Raises InputError, with the reason, if the solver refuses it, and\n"
+      "what the cost raises.");
+  module.def("posed", &posed, py::arg("behaviour"), py::arg("options"), py::arg("neighbours"),
+             py::arg("plan"), py::arg("own_slot") = 0, py::arg("slots") = std::vector<int>{},
+             "The smooth problems that a behaviour poses to a vehicle at the origin. neighbours:\n"
+             "array (neighbours, 2), metres in its own frame; slots: theirs in the plan.");
+  module.def("register", &registered, py::arg("from_points"), py::arg("to_points"),
+             py::arg("weights") = std::nullopt, py::arg("solver") = "procrustes",
+             py::arg("loss") = "least_squares", py::arg("options") = py::dict(),
+             py::arg("loss_options") = py::dict(),
+             "The rigid motion, never a reflection, that lays points best onto their partners.\n"
+             "Arrays (points, 2), metres. A dict: angle_rad, translation, cost, status, usable.");
+  module.def(
+      "match", &matched, py::arg("points"), py::arg("slots"), py::arg("ownship_weight") = 1.0,
+      py::arg("delta_theta_deg") = 10.0, py::arg("solver") = "sampled",
+      "Which slots points take, and how they are turned onto the plan; the own position first.\n"
+      "Arrays (n, 2), metres. A dict: slots, rotation_rad, cost, usable.");
+}
+
+}  // namespace shoal::python

@@ -1,0 +1,27 @@
+"""shoal: formation planning of underwater vehicles as optimisation problems, to try and to measure.
+
+    import shoal
+
+    dataset, measures = shoal.run("redsea_square", {"behaviour.kind": "pairwise_referencing"}, seed=7)
+
+Scenarios and studies are names of the library, files, or dicts; changes are dicts with the dotted
+keys of `shoal run --set`. The same seed gives the same bits as the program. Numbers are SI (names say
+where they are not), positions are metres east and north, angles counter-clockwise from east where they
+are radians, of the compass where they are degrees in files.
+
+Bad input raises InputError with the sentence that the program prints.
+"""
+
+from ._shoal import (InputError, OwnState, Ping, Plan, Planner, Problem, Solution, SystemError, Table,
+                     formation_quality, match, posed, program, register, solve)
+from ._shoal import version as __version__
+from ._catalogue import catalogue, measures, options
+from ._potentials import Potential, potential
+from ._studies import claims, study_dataset, study_report, sweep, tables, trials, write_tables
+from ._trials import Run, run, scenario
+
+__all__ = ["InputError", "OwnState", "Ping", "Plan", "Planner", "Potential", "Problem", "Run",
+           "Solution", "SystemError", "Table", "__version__", "catalogue", "claims",
+           "formation_quality", "match", "measures", "options", "posed", "potential", "program",
+           "register", "run", "scenario", "solve", "study_dataset", "study_report", "sweep", "tables",
+           "trials", "write_tables"]

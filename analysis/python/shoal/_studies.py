@@ -1,0 +1,84 @@
+"""Studies: many trials, their tables and claims."""
+
+from __future__ import annotations
+
+import io
+import os
+import pathlib
+import tempfile
+from typing import TYPE_CHECKING, Any, Callable, Mapping
+
+from . import _shoal
+from ._trials import name_of, plain
+
+if TYPE_CHECKING:
+    import pandas
+    import xarray
+
+Folder = "str | os.PathLike[str]"
+
+
+def folder_of(study: Any, out: str | os.PathLike[str] | None) -> str:
+    """Where the trials of a study go, as `shoal sweep` has it."""
+    return os.fspath(out) if out is not None else str(pathlib.Path("out") / name_of(study, "study"))
+
+
+def sweep(study: str | os.PathLike[str] | Mapping[str, Any],
+          out: str | os.PathLike[str] | None = None, *, jobs: int | None = None,
+          replications: int = 0, rerun_changed: bool = False, retry_failed: bool = False,
+          progress: Callable[[dict[str, Any]], None] | None = None) -> pandas.DataFrame:
+    """Runs the trials of a study that a folder does not hold yet, and returns them all: see trials().
+
+    study: a name of those that ship, a file, or a dict. jobs: trials at a time; default: all
+    processors. replications: instead of those of the study. progress: called a few times a second with
+    a dict of counts. Interrupted, it goes on where it was when called again. Raises InputError and
+    SystemError.
+    """
+    folder = folder_of(study, out)
+    _shoal.sweep(plain(study), folder, jobs or os.cpu_count() or 1, replications, rerun_changed,
+                 retry_failed, progress)
+    return trials(folder)
+
+
+def trials(folder: str | os.PathLike[str]) -> pandas.DataFrame:
+    """The trials of a study, a row for each: group, factors, replication, seed, status, reason (why it
+    failed), and every metric with its unit in its name."""
+    import pandas
+
+    return pandas.read_csv(io.StringIO(_shoal.trials_csv(os.fspath(folder))),
+                           float_precision="round_trip")
+
+
+def study_dataset(folder: str | os.PathLike[str], group: str | None = None) -> xarray.Dataset:
+    """Metrics and stored series of a study, with its factors as dimensions. group: of the study, where
+    it has named ones."""
+    import xarray
+
+    with tempfile.TemporaryDirectory(prefix="shoal-") as temporary:
+        file = os.path.join(temporary, "study.nc")
+        _shoal.export_netcdf(os.fspath(folder), file)
+        return xarray.load_dataset(file, group=group, decode_times=False)
+
+
+def tables(folder: str | os.PathLike[str]) -> dict[str, _shoal.Table]:
+    """The tables of a study, by name, from what is stored."""
+    return {table.name: table for table in _shoal.tables(os.fspath(folder))}
+
+
+def write_tables(folder: str | os.PathLike[str]) -> None:
+    """Writes them, and that of the claims, into its folder `tables`, as LaTeX, CSV and Markdown."""
+    _shoal.write_tables(os.fspath(folder))
+
+
+def claims(folder: str | os.PathLike[str]) -> pandas.DataFrame:
+    """The claims of a study tested on what is stored: a row for each contrast."""
+    import pandas
+
+    columns = ["section", "claim", "verdict", "contrast", "contrast_verdict", "n", "mean", "low", "high"]
+    return pandas.DataFrame(_shoal.claims(os.fspath(folder)), columns=columns)
+
+
+def study_report(folder: str | os.PathLike[str]) -> pathlib.Path:
+    """Writes report.html into the folder of a study, and returns its path."""
+    _shoal.study_report(os.fspath(folder))
+    return pathlib.Path(folder) / "report.html"

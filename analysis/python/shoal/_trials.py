@@ -1,0 +1,72 @@
+"""Single trials."""
+
+from __future__ import annotations
+
+import json
+import os
+import pathlib
+import tempfile
+from typing import TYPE_CHECKING, Any, Mapping, NamedTuple
+
+from . import _shoal
+
+if TYPE_CHECKING:
+    import xarray
+
+Scenario = "str | os.PathLike[str] | Mapping[str, Any]"
+
+
+class Run(NamedTuple):
+    """What a trial leaves: `dataset, measures = shoal.run(...)`."""
+
+    #: Every vehicle against time (dimensions vehicle and time, seconds since mission start), and
+    #: every series with its own time; None if nothing was recorded.
+    dataset: xarray.Dataset | None
+    #: Measures by name, with the unit in the name; None where a measure has no value.
+    measures: dict[str, float | None]
+
+
+def plain(value: Any) -> Any:
+    """Names and paths as text, mappings as dicts."""
+    return dict(value) if isinstance(value, Mapping) else os.fspath(value)
+
+
+def name_of(value: Any, otherwise: str) -> str:
+    return otherwise if isinstance(value, Mapping) else pathlib.Path(value).stem
+
+
+def scenario(scenario: str | os.PathLike[str] | Mapping[str, Any],
+             set: Mapping[str, Any] | None = None) -> dict[str, Any]:
+    """The whole scenario as nested dicts, also what nobody set. Change it and run it."""
+    return _shoal.scenario(plain(scenario), dict(set or {}))
+
+
+def run(scenario: str | os.PathLike[str] | Mapping[str, Any],
+        set: Mapping[str, Any] | None = None, seed: int | None = None, *, threads: int = 1,
+        record: bool = True, out: str | os.PathLike[str] | None = None,
+        report: bool = False) -> Run:
+    """Runs one trial.
+
+    scenario: a name of the library, a file, or a dict. set: changes by dotted keys, over it. threads:
+    for large swarms; the numbers do not depend on it. out: a folder for what `shoal run` writes
+    (scenario.toml, run.nc, summary.json), and report.html if `report` is set.
+
+    Other threads of Python go on meanwhile. Raises InputError, SystemError, and what a cost of one's
+    own raises.
+    """
+    changes = dict(set or {})
+    if seed is not None:
+        changes["trial.seed"] = int(seed)
+    with tempfile.TemporaryDirectory(prefix="shoal-") as temporary:
+        folder = pathlib.Path(out if out is not None else temporary)
+        summary = _shoal.run(plain(scenario), changes, name_of(scenario, "scenario"), str(folder),
+                             threads, record, report)
+        return Run(_dataset(folder / "run.nc"), json.loads(summary)["metrics"])
+
+
+def _dataset(file: pathlib.Path) -> xarray.Dataset | None:
+    if not file.exists():
+        return None
+    import xarray
+
+    return xarray.load_dataset(file, decode_times=False)

@@ -1,0 +1,235 @@
+#include <chrono>
+#include <filesystem>
+
+#include "conversions.hpp"
+#include "shoal/analysis/report/study_report.hpp"
+#include "shoal/analysis/study/cell_scenarios.hpp"
+#include "shoal/analysis/study/export.hpp"
+#include "shoal/analysis/study/open_sweep.hpp"
+#include "shoal/analysis/study/study_files.hpp"
+#include "shoal/analysis/study/study_tables.hpp"
+#include "shoal/analysis/study/sweep.hpp"
+#include "shoal/scenarios/library_path.hpp"
+#include "shoal/scenarios/toml_file.hpp"
+
+namespace shoal::python {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// A study by name, by path, or as a dict.
+analysis::StudyPlan read(py::object study, int replications) {
+  Setting root = py::isinstance<py::dict>(study)
+                     ? to_setting(study)
+                     : scenarios::read_toml(analysis::find_study(py::str(study)));
+  if (replications > 0) analysis::set_replications(root, replications);
+  analysis::StudyPlan plan(analysis::read_study(root));
+  analysis::require_answerable(plan);
+  return plan;
+}
+
+py::dict counts(const analysis::SweepProgress& progress) {
+  py::dict counted;
+  counted["planned"] = progress.planned;
+  counted["stored"] = progress.stored;
+  counted["done"] = progress.done;
+  counted["failed"] = progress.failed;
+  counted["elapsed_s"] = progress.elapsed_s;
+  counted["first_failure"] = progress.first_failure;
+  return counted;
+}
+
+/// The program beside the library that runs, for solvers that need processes of their own; "" if
+/// there is none.
+std::string program_beside() {
+  const fs::path prefix = scenarios::library_path().parent_path().parent_path().parent_path();
+  const fs::path program = prefix / "bin" / "shoal";
+  return fs::exists(program) ? program.string() : "";
+}
+
+py::dict sweep(const py::object& study, const std::string& folder, int jobs, int replications,
+               bool rerun_changed, bool retry_failed, const py::object& progress) {
+  if (jobs < 1) throw InputError("jobs is " + std::to_string(jobs) + "; give at least 1");
+  const analysis::StudyPlan plan = read(study, replications);
+  analysis::SweepSettings settings{.jobs = jobs,
+                                   .rerun_changed = rerun_changed,
+                                   .retry_failed = retry_failed,
+                                   .worker_program = program_beside(),
+                                   .progress = {}};
+  settings.progress = [&](const analysis::SweepProgress& now) {
+    const py::gil_scoped_acquire held;
+    if (PyErr_CheckSignals() != 0) throw py::error_already_set();  // Ctrl-C
+    if (!progress.is_none()) progress(counts(now));
+  };
+  analysis::SweepProgress done;
+  {
+    const py::gil_scoped_release free;
+    done = analysis::sweep(plan, folder, settings);
+  }
+  return counts(done);
+}
+
+/// An open sweep whose trials somebody else runs.
+class Sweep {
+ public:
+  Sweep(const py::object& study, const std::string& folder, int replications, bool rerun_changed,
+        bool retry_failed, int jobs)
+      : plan_(read(study, replications)),
+        open_(plan_, folder,
+              {.jobs = jobs,
+               .rerun_changed = rerun_changed,
+               .retry_failed = retry_failed,
+               .worker_program = "",
+               .progress = {}}),
+        scenarios_(plan_) {}
+
+  std::size_t size() const { return open_.tasks().size(); }
+
+  std::string request(std::size_t index) {
+    const analysis::SweepTask& task = open_.tasks().at(index);
+    analysis::CellScenario cell = scenarios_.of(task.trial->group, task.trial->cell);
+    cell.scenario.trial.seed = plan_.seed(*task.trial);
+    return analysis::trial_request(cell.scenario, open_.series());
+  }
+
+  /// False if the trial failed.
+  bool store(std::size_t index, const std::string& answer) {
+    analysis::TrialOutcome outcome = analysis::parsed_answer(answer);
+    const bool done = outcome.failure.empty();
+    open_.store(open_.tasks().at(index), std::move(outcome));
+    return done;
+  }
+
+  py::dict progress() const {
+    analysis::SweepProgress now = open_.progress();
+    now.elapsed_s = elapsed_s();
+    return counts(now);
+  }
+
+  void end() { open_.end(elapsed_s()); }
+
+ private:
+  double elapsed_s() const {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - began_).count();
+  }
+
+  analysis::StudyPlan plan_;
+  analysis::OpenSweep open_;
+  analysis::CellScenarios scenarios_;
+  std::chrono::steady_clock::time_point began_ = std::chrono::steady_clock::now();
+};
+
+py::list claims(const std::string& folder) {
+  const auto results = analysis::read_results(analysis::stored_plan(folder), folder);
+  py::list rows;
+  for (const analysis::JudgedClaim& judged : analysis::judged_claims(results)) {
+    for (const analysis::ContrastResult& contrast : judged.result.contrasts) {
+      py::dict row;
+      row["section"] = judged.claim.section;
+      row["claim"] = judged.claim.says;
+      row["verdict"] = name_of(judged.result.verdict);
+      row["contrast"] = contrast.title;
+      row["contrast_verdict"] = name_of(contrast.verdict);
+      row["n"] = contrast.n;
+      row["mean"] = contrast.mean;
+      row["low"] = contrast.low;
+      row["high"] = contrast.high;
+      rows.append(row);
+    }
+  }
+  return rows;
+}
+
+py::object cell_value(const analysis::Cell& cell) {
+  if (const auto* text = std::get_if<std::string>(&cell)) return py::str(*text);
+  if (const auto* estimate = std::get_if<analysis::Estimate>(&cell)) {
+    return py::float_(estimate->value);
+  }
+  return py::none();
+}
+
+py::list table_rows(const analysis::Table& table) {
+  py::list rows;
+  for (const auto& row : table.rows) {
+    py::list values;
+    for (const analysis::Cell& cell : row) values.append(cell_value(cell));
+    rows.append(values);
+  }
+  return rows;
+}
+
+py::list table_columns(const analysis::Table& table) {
+  py::list columns;
+  for (const analysis::Column& column : table.columns) {
+    columns.append(py::make_tuple(column.group, column.header, column.unit));
+  }
+  return columns;
+}
+
+}  // namespace
+
+void add_studies(py::module_& module) {
+  module.def("sweep", &sweep, py::arg("study"), py::arg("folder"), py::arg("jobs"),
+             py::arg("replications"), py::arg("rerun_changed"), py::arg("retry_failed"),
+             py::arg("progress"));
+  py::class_<Sweep>(module, "OpenSweep")
+      .def(py::init<const py::object&, const std::string&, int, bool, bool, int>(),
+           py::arg("study"), py::arg("folder"), py::arg("replications"), py::arg("rerun_changed"),
+           py::arg("retry_failed"), py::arg("jobs"))
+      .def("__len__", &Sweep::size)
+      .def("request", &Sweep::request, py::arg("index"))
+      .def("store", &Sweep::store, py::arg("index"), py::arg("answer"))
+      .def("progress", &Sweep::progress)
+      .def("end", &Sweep::end);
+  module.def("answer", &analysis::trial_answer, py::arg("request"),
+             py::call_guard<py::gil_scoped_release>());
+  module.def(
+      "trials_csv", [](const std::string& folder) { return analysis::StudyExport(folder).csv(); },
+      py::arg("folder"));
+  module.def("claims", &claims, py::arg("folder"));
+  module.def(
+      "study_report", [](const std::string& folder) { analysis::write_study_report(folder); },
+      py::arg("folder"));
+  module.def(
+      "write_tables",
+      [](const std::string& folder) {
+        const auto results = analysis::read_results(analysis::stored_plan(folder), folder);
+        analysis::write_tables(analysis::study_tables(results), analysis::judged_claims(results),
+                               folder);
+      },
+      py::arg("folder"));
+  module.def(
+      "export_netcdf",
+      [](const std::string& folder, const std::string& file) {
+        analysis::StudyExport(folder).write_netcdf(file);
+      },
+      py::arg("folder"), py::arg("file"));
+
+  py::class_<analysis::Table>(module, "Table", "A table of the house: text, CSV, Markdown, LaTeX.")
+      .def_readonly("name", &analysis::Table::name)
+      .def_readonly("caption", &analysis::Table::caption)
+      .def_property_readonly("columns", &table_columns, "(group, header, unit) of each.")
+      .def_property_readonly("rows", &table_rows, "Values: texts, numbers, or None.")
+      .def(
+          "print",
+          [](const analysis::Table& table, const std::string& format) {
+            return analysis::print(table, analysis::table_format(format));
+          },
+          py::arg("format") = "text", "As text, csv, markdown, latex or html.")
+      .def("__str__",
+           [](const analysis::Table& table) {
+             return analysis::print(table, analysis::TableFormat::text);
+           })
+      .def("_repr_html_", [](const analysis::Table& table) {
+        return analysis::print(table, analysis::TableFormat::html);
+      });
+  module.def(
+      "tables",
+      [](const std::string& folder) {
+        return analysis::study_tables(
+            analysis::read_results(analysis::stored_plan(folder), folder));
+      },
+      py::arg("folder"));
+}
+
+}  // namespace shoal::python
