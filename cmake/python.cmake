@@ -5,6 +5,10 @@
 if(NOT DEFINED Python3_EXECUTABLE AND EXISTS /usr/bin/python3)
   set(Python3_EXECUTABLE /usr/bin/python3 CACHE FILEPATH "Python 3 with the Debian packages")
 endif()
+find_package(Python3 REQUIRED COMPONENTS Interpreter OPTIONAL_COMPONENTS Development.Module)
+# Where Debian's Python looks below a prefix of one's own.
+set(SHOAL_PYTHON_DIR "lib/python${Python3_VERSION_MAJOR}.${Python3_VERSION_MINOR}/dist-packages"
+    CACHE STRING "Where the Python package is installed, below the prefix")
 if(SHOAL_PYTHON)
   find_package(Python3 REQUIRED COMPONENTS Interpreter Development.Module)
   # pybind11 takes what was found, and does not look for one of its own.
@@ -30,15 +34,10 @@ if(SHOAL_PYTHON)
     file(CREATE_LINK ${package_source}/${file} ${package}/${file} SYMBOLIC)
   endforeach()
 
-  # Where Debian's Python looks below a prefix of one's own.
-  set(SHOAL_PYTHON_DIR "lib/python${Python3_VERSION_MAJOR}.${Python3_VERSION_MINOR}/dist-packages"
-      CACHE STRING "Where the Python package is installed, below the prefix")
   file(RELATIVE_PATH to_libraries ${CMAKE_INSTALL_PREFIX}/${SHOAL_PYTHON_DIR}/shoal
        ${CMAKE_INSTALL_FULL_LIBDIR})
   set_target_properties(shoal_python PROPERTIES INSTALL_RPATH "$ORIGIN/${to_libraries}")
   install(TARGETS shoal_python LIBRARY DESTINATION ${SHOAL_PYTHON_DIR}/shoal)
   install(DIRECTORY ${package_source}/ DESTINATION ${SHOAL_PYTHON_DIR}/shoal
           PATTERN __pycache__ EXCLUDE)
-else()
-  find_package(Python3 REQUIRED COMPONENTS Interpreter)
 endif()

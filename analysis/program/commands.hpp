@@ -38,6 +38,8 @@ struct SweepArguments {
   int jobs = 1;
   std::string shard;
   std::int64_t replications = 0;  ///< 0: as the study says
+  std::string dask;  ///< address of a scheduler, whose workers run the trials; "" for none
+  int batch = 1;     ///< trials that such a worker takes at a time
   bool fail_fast = false, rerun_changed = false, retry_failed = false;
 };
 
@@ -55,7 +57,7 @@ void export_study(const std::string& folder, const std::string& out);
 void tables(const std::string& folder, bool summary);
 void claims(const std::string& folder);
 void report(const std::string& folder);
-/// Becomes another program, which takes the same arguments.
+/// Becomes Python, which takes the same arguments.
 void figures(const std::vector<std::string>& arguments);
 
 }  // namespace shoal::program

@@ -100,6 +100,12 @@ int main(int argc, char** argv) {
                             "I/N: only the I-th of N parts; see shoal merge");
   sweep_command->add_option("--replications", sweep.replications, "instead of those of the study")
       ->check(CLI::Range(1, 1000000000));
+  sweep_command->add_option(
+      "--dask", sweep.dask,
+      "ADDRESS of a scheduler of dask.distributed: its workers run the trials");
+  sweep_command->add_option("--batch", sweep.batch, "with --dask: trials of a task")
+      ->check(CLI::Range(1, 100000))
+      ->capture_default_str();
   sweep_command->add_flag("--fail-fast", sweep.fail_fast,
                           "begin no trial after the first that fails");
   sweep_command->add_flag("--rerun-changed", sweep.rerun_changed,

@@ -2,12 +2,15 @@
 #include <unistd.h>
 
 #include <cmath>
+#include <cstdlib>
 #include <filesystem>
 
 #include "commands.hpp"
+#include "python.hpp"
 #include "shoal/analysis/study/study_tables.hpp"
 #include "shoal/analysis/study/sweep.hpp"
 #include "shoal/core/text.hpp"
+#include "shoal/scenarios/library_path.hpp"
 #include "shoal/scenarios/toml_file.hpp"
 
 namespace shoal::program {
@@ -77,9 +80,35 @@ analysis::StudyPlan plan_of(const SweepArguments& arguments) {
   return plan;
 }
 
+/// Where the Python package is: below the build, or where it was installed.
+fs::path package_path() {
+  const fs::path prefix = scenarios::library_path().parent_path().parent_path().parent_path();
+  for (const fs::path& candidate : {prefix / "python", prefix / SHOAL_PYTHON_DIR}) {
+    if (fs::exists(candidate / "shoal")) return candidate;
+  }
+  throw SystemError("this shoal was built without its Python package, which --dask needs");
+}
+
+[[noreturn]] void sweep_by_dask(const SweepArguments& arguments) {
+  if (!arguments.shard.empty() || arguments.fail_fast) {
+    throw InputError("--dask takes neither --shard nor --fail-fast: workers share all trials");
+  }
+  const char* others = std::getenv("PYTHONPATH");
+  const std::string path = package_path().string() + (others ? ":" + std::string(others) : "");
+  ::setenv("PYTHONPATH", path.c_str(), 1);
+  std::vector<std::string> words{"-m", "shoal.distributed", arguments.study, arguments.dask};
+  if (!arguments.out.empty()) words.insert(words.end(), {"--out", arguments.out});
+  words.insert(words.end(), {"--batch", std::to_string(arguments.batch)});
+  words.insert(words.end(), {"--replications", std::to_string(arguments.replications)});
+  if (arguments.rerun_changed) words.emplace_back("--rerun-changed");
+  if (arguments.retry_failed) words.emplace_back("--retry-failed");
+  become_python("talks with dask", words);
+}
+
 }  // namespace
 
 void sweep(const SweepArguments& arguments) {
+  if (!arguments.dask.empty()) sweep_by_dask(arguments);
   const analysis::StudyPlan plan = plan_of(arguments);
   const fs::path folder = arguments.out.empty() ? fs::path("out") / fs::path(arguments.study).stem()
                                                 : fs::path(arguments.out);

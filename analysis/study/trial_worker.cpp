@@ -19,6 +19,16 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
+/// Lines of a text that only machines read would mean nothing in a message.
+void forget_origins(Setting& setting) {
+  setting.origin = {};
+  if (setting.is_table()) {
+    for (auto& [name, entry] : setting.table()) forget_origins(entry);
+  } else if (auto* list = std::get_if<Setting::List>(&setting.value)) {
+    for (Setting& entry : *list) forget_origins(entry);
+  }
+}
+
 /// One direction of talk with a child. Neither end is inherited by children of other threads.
 class Pipe {
  public:
@@ -96,7 +106,8 @@ std::string trial_answer(const std::string& request) {
     throw InputError("shoal " + program + " asks for a trial, and this is " + build_info().program +
                      "; install the same shoal on all machines");
   }
-  const Setting root = scenarios::parse_toml(asked.at("scenario").get<std::string>(), "scenario");
+  Setting root = scenarios::parse_toml(asked.at("scenario").get<std::string>(), "scenario");
+  forget_origins(root);
   const TrialOutcome outcome = trial_outcome(scenarios::read_scenario(root), asked.at("series"));
   Json json{{"failure", outcome.failure}, {"wall_s", outcome.wall_s}};
   Json& metrics = json["metrics"] = Json::array();

@@ -1,0 +1,174 @@
+"""Sweeps on many machines, by dask.distributed.
+
+    from dask.distributed import Client
+    import shoal.distributed
+
+    frame = shoal.distributed.sweep("thesis_chapter5", Client("scheduler:8786"))
+
+From the command line: `shoal sweep thesis_chapter5 --dask scheduler:8786`.
+
+A task is a few trials. What travels to a worker is their resolved scenarios as text (some 3 kB each),
+what comes back are their measures and the series that tables need. Workers write nothing; the one who
+sweeps stores each trial as it arrives, in the same store and with the same numbers as `shoal sweep`.
+Workers need the same shoal, and the files that scenarios name under the same paths. A worker that dies
+loses the trials it was running, which others then run; one that joins late gets its share.
+"""
+
+from __future__ import annotations
+
+import argparse
+import os
+import sys
+import time
+import uuid
+from typing import TYPE_CHECKING, Any, Callable, Mapping
+
+from . import _shoal
+from ._studies import folder_of, trials
+from ._trials import plain
+
+if TYPE_CHECKING:
+    import pandas
+    from distributed import Client
+
+# Tasks under way for each thread of the workers: enough that none waits for the next, few enough that
+# a late worker finds some left.
+TASKS_A_THREAD = 4
+
+
+def sweep(study: str | os.PathLike[str] | Mapping[str, Any], client: Client,
+          out: str | os.PathLike[str] | None = None, *, batch: int = 1, replications: int = 0,
+          rerun_changed: bool = False, retry_failed: bool = False,
+          progress: Callable[[dict[str, Any]], None] | None = None) -> pandas.DataFrame:
+    """Runs on the workers of a client the trials of a study that a folder does not hold yet, and
+    returns them all: see shoal.trials().
+
+    batch: trials of a task; more than one pays for trials shorter than some 50 ms. The other arguments
+    are those of shoal.sweep(). Interrupted or cut off, it goes on where it was when called again.
+    Raises InputError, SystemError, and what dask raises if workers keep dying.
+    """
+    if batch < 1:
+        raise _shoal.InputError(f"batch is {batch}; give at least 1")
+    folder = folder_of(study, out)
+    open_sweep = _shoal.OpenSweep(plain(study), folder, replications, rerun_changed, retry_failed,
+                                  _Threads(client).now())
+    run(open_sweep, client, batch, progress)
+    open_sweep.end()
+    return trials(folder)
+
+
+def run(open_sweep: _shoal.OpenSweep, client: Client, batch: int,
+        progress: Callable[[dict[str, Any]], None] | None) -> None:
+    """Has the trials of an open sweep run, and stores them."""
+    from distributed import as_completed
+
+    threads = _Threads(client)
+    name = f"shoal-{uuid.uuid4().hex[:8]}"
+    first = 0
+    batches: dict[str, range] = {}
+
+    def submit():
+        nonlocal first
+        indices = range(first, min(first + batch, len(open_sweep)))
+        first = indices.stop
+        # Not pure: nobody else's answer may stand for it.
+        future = client.submit(answers, [open_sweep.request(i) for i in indices],
+                               key=f"{name}-{indices.start}", pure=False)
+        batches[future.key] = indices
+        return future
+
+    done = as_completed(with_results=True)
+    try:
+        while first < len(open_sweep) or batches:
+            while first < len(open_sweep) and len(batches) < TASKS_A_THREAD * threads.now():
+                done.add(submit())
+            future, found = next(done)
+            for index, answer in zip(batches.pop(future.key), found):
+                open_sweep.store(index, answer)
+            if progress is not None:
+                progress(open_sweep.progress())
+    finally:
+        for future in list(done.futures):
+            future.cancel()
+
+
+def answers(requests: list[str]) -> list[str]:
+    """What a worker does."""
+    return [_shoal.answer(request) for request in requests]
+
+
+class _Threads:
+    """How many threads the workers have, asked for once a second: asking takes as long as a task."""
+
+    def __init__(self, client: Client):
+        self._client, self._asked, self._known = client, -1.0, 1
+
+    def now(self) -> int:
+        if self._asked < 0 or time.monotonic() - self._asked > 1.0:
+            workers = self._client.scheduler_info()["workers"].values()
+            self._known = max(1, sum(worker["nthreads"] for worker in workers))
+            self._asked = time.monotonic()
+        return self._known
+
+
+def _main() -> int:
+    parser = argparse.ArgumentParser(prog="shoal sweep --dask")
+    parser.add_argument("study")
+    parser.add_argument("address")
+    parser.add_argument("--out")
+    parser.add_argument("--replications", type=int, default=0)
+    parser.add_argument("--batch", type=int, default=1)
+    parser.add_argument("--rerun-changed", action="store_true")
+    parser.add_argument("--retry-failed", action="store_true")
+    wanted = parser.parse_args()
+    try:
+        import distributed
+    except ImportError:
+        return _complain("sweeps on many machines need dask.distributed; install python3-distributed", 1)
+    try:
+        client = distributed.Client(wanted.address, timeout=20)
+    except (OSError, ValueError, TimeoutError) as error:
+        return _complain(f"no scheduler of dask answers at {wanted.address} ({error}); start "
+                         "dask-scheduler there", 1)
+    shown = sys.stderr.isatty()
+
+    last: dict[str, Any] = {}
+
+    def line(counts: dict[str, Any]) -> None:
+        last.update(counts)
+        if shown:
+            print(f"\r{counts['stored'] + counts['done']} of {counts['planned']} trials, "
+                  f"{counts['failed']} failed\033[K", end="", file=sys.stderr, flush=True)
+
+    try:
+        with client:
+            sweep(wanted.study, client, wanted.out, batch=wanted.batch,
+                  replications=wanted.replications, rerun_changed=wanted.rerun_changed,
+                  retry_failed=wanted.retry_failed,
+                  progress=line)
+    except _shoal.InputError as error:
+        return _complain(error, 2)
+    except _shoal.SystemError as error:
+        return _complain(error, 1)
+    if shown:
+        print("\r\033[K", end="", file=sys.stderr)
+    folder = folder_of(wanted.study, wanted.out)
+    if last:
+        print(f"{folder}: {last['stored'] + last['done']} of {last['planned']} trials are stored, "
+              f"{last['done']} of them run now in {last['elapsed_s']:.1f} s")
+        if last["failed"]:
+            print(f"{last['failed']} failed; the first: {last['first_failure']}")
+    else:
+        print(f"{folder}: all trials are stored already")
+    _shoal.write_tables(folder)
+    print(f"written: {folder}/tables")
+    return 0
+
+
+def _complain(what: Any, status: int) -> int:
+    print(f"shoal: {what}", file=sys.stderr)
+    return status
+
+
+if __name__ == "__main__":
+    sys.exit(_main())

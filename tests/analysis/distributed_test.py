@@ -1,0 +1,166 @@
+"""Sweeps by dask.distributed: a scheduler and workers as processes of their own, one of which is
+killed and one of which comes late; the same tables, byte for byte.
+
+    PYTHONPATH=build/ci/python python3 distributed_test.py SHOAL
+"""
+
+import os
+import re
+import signal
+import subprocess
+import sys
+import time
+
+import desk
+import shoal
+import shoal.distributed
+from distributed import Client
+from study_desk import SHORT, STUDY, StudyDesk
+
+LONG = STUDY.replace("replications = 3", "replications = 8").replace("= 300", "= 3600")
+
+FAILING = """scenario = "redsea_square"
+replications = 2
+set = { trial.duration_s = 60 }
+[[factor]]
+name = "late"
+key = "current.netcdf.time_offset_s"
+values = [0, 1000000]
+"""
+
+
+class Cluster:
+    """A scheduler and workers on loopback."""
+
+    def __init__(self, folder, workers):
+        self.folder = folder
+        self.processes = []
+        self.address = f"tcp://127.0.0.1:{self._scheduler()}"
+        self.workers = [self.start_worker() for _ in range(workers)]
+
+    def _start(self, name, *words):
+        with open(self.folder / name, "w", encoding="utf-8") as log:
+            process = subprocess.Popen([sys.executable, "-m", *words], cwd=self.folder,
+                                       stdout=subprocess.DEVNULL, stderr=log)
+        self.processes.append(process)
+        return process
+
+    def _scheduler(self):
+        self._start("scheduler.log", "distributed.cli.dask_scheduler", "--host", "127.0.0.1",
+                    "--port", "0", "--no-dashboard")
+        for _ in range(600):
+            found = re.search(r"tcp://127\.0\.0\.1:(\d+)", (self.folder / "scheduler.log").read_text())
+            if found:
+                return found.group(1)
+            time.sleep(0.1)
+        raise RuntimeError("the scheduler does not start")
+
+    def start_worker(self):
+        return self._start(f"worker-{len(self.processes)}.log", "distributed.cli.dask_worker",
+                           self.address, "--nthreads", "1", "--nworkers", "1", "--no-nanny",
+                           "--no-dashboard", "--local-directory", str(self.folder))
+
+    def stop(self):
+        for process in self.processes:
+            process.kill()
+            process.wait()
+
+
+class Distributed(StudyDesk):
+    def cluster(self, workers):
+        folder = self.desk / "cluster"
+        folder.mkdir(exist_ok=True)
+        cluster = Cluster(folder, workers)
+        self.addCleanup(cluster.stop)
+        client = Client(cluster.address, timeout=60)
+        self.addCleanup(client.close)
+        client.wait_for_workers(workers, timeout=60)
+        return cluster, client
+
+    def assert_same_study(self, one, other):
+        self.assertEqual(self.tables(one), self.tables(other))
+        columns = "trial_key, trial_id, seed, status, energy_mean_wh, quality_final_m"
+        self.assertEqual(self.rows(columns, one), self.rows(columns, other))
+
+    def test_the_tables_are_those_of_one_machine_with_a_worker_killed_and_one_late(self):
+        self.write("study.toml", LONG)
+        self.sweep(out="one")
+        cluster, client = self.cluster(2)
+        events = []
+
+        def watch(counts):
+            if counts["done"] == 4 and not events:
+                events.append("killed")
+                os.kill(cluster.workers[0].pid, signal.SIGKILL)
+                cluster.start_worker()
+
+        frame = shoal.distributed.sweep(self.desk / "study.toml", client, self.desk / "many",
+                                        progress=watch)
+        self.assertEqual(events, ["killed"])
+        self.assertEqual(len(frame), 24)
+        self.assertEqual(set(frame.status), {"done"})
+        shoal.write_tables(self.desk / "many")
+        self.assert_same_study("one", "many")
+        late = [worker for worker in client.scheduler_info()["workers"].values()]
+        self.assertEqual(len(late), 2)
+
+    def test_the_program_does_the_same(self):
+        self.write("study.toml", SHORT)
+        self.sweep(out="one")
+        cluster, _ = self.cluster(1)
+        done = self.shoal("sweep", "study.toml", "--dask", cluster.address, "--out", "many",
+                          "--batch", "4")
+        self.assertEqual((done.returncode, done.stderr), (0, ""))
+        self.assertIn("many: 9 of 9 trials are stored, 9 of them run now", done.stdout)
+        self.assert_same_study("one", "many")
+        again = self.shoal("sweep", "study.toml", "--dask", cluster.address, "--out", "many")
+        self.assertIn("all trials are stored already", again.stdout)
+
+    def test_trials_that_fail_are_stored_as_such(self):
+        self.write("sea.toml", FAILING)
+        cluster, client = self.cluster(1)
+        frame = shoal.distributed.sweep(self.desk / "sea.toml", client, self.desk / "many")
+        self.assertTrue((frame.status == "failed").any())
+        self.sweep(study="sea.toml", out="one")
+        self.assertEqual(self.rows("trial_key, status, reason", "one"),
+                         self.rows("trial_key, status, reason", "many"))
+
+    def test_a_worker_of_another_shoal_is_refused(self):
+        self.write("study.toml", SHORT)
+        _, client = self.cluster(1)
+        client.run(_pretend_to_be_another)
+        with self.assertRaisesRegex(shoal.InputError, "install the same shoal on all machines"):
+            shoal.distributed.sweep(self.desk / "study.toml", client, self.desk / "out")
+
+    def test_what_cannot_be_reached_is_told(self):
+        done = self.shoal("sweep", "study.toml", "--dask", "tcp://127.0.0.1:1", "--out", "out")
+        self.assert_complains(done, 1, ["no scheduler of dask answers at tcp://127.0.0.1:1",
+                                        "start dask-scheduler"])
+        done = self.shoal("sweep", "study.toml", "--dask", "here", "--shard", "1/2")
+        self.assert_complains(done, 2, ["--dask takes neither --shard"])
+
+    def test_the_overhead_of_a_task_is_printed(self):
+        tiny = ('scenario = "construction_square"\nreplications = 300\n'
+                'set = { trial.duration_s = 10, quality.every_s = 0 }\n')
+        self.write("study.toml", tiny)
+        _, client = self.cluster(1)
+        shoal.distributed.sweep(self.desk / "study.toml", client, self.desk / "warm", replications=5)
+        began = time.monotonic()
+        shoal.distributed.sweep(self.desk / "study.toml", client, self.desk / "many")
+        many = time.monotonic() - began
+        began = time.monotonic()
+        shoal.sweep(self.desk / "study.toml", self.desk / "one", jobs=1)
+        one = time.monotonic() - began
+        print(f"300 trials of {1e3 * one / 300:.1f} ms: {1e3 * (many - one) / 300:.1f} ms more a task "
+              "by one worker of dask", file=sys.stderr)
+
+
+def _pretend_to_be_another():
+    from shoal import _shoal
+
+    answer = _shoal.answer
+    _shoal.answer = lambda request: answer(request.replace(_shoal.program, "0.0.0-another"))
+
+
+if __name__ == "__main__":
+    desk.main()

@@ -1,0 +1,354 @@
+"""The Python package does what the program does, bit for bit.
+
+    PYTHONPATH=build/ci/python python3 python_test.py SHOAL
+"""
+
+import json
+import math
+import pathlib
+import subprocess
+import sys
+import tempfile
+import threading
+import time
+
+import desk
+import numpy
+import shoal
+import xarray
+from desk import Desk
+from study_desk import SHORT, STUDY
+
+REPELLED = {"behaviour.kind": "attraction_repulsion", "trial.duration_s": 900}
+LAW = "behaviour.attraction_repulsion.potential"
+
+
+def thesis(r, s):
+    return s**3 / (2 * r**2) + r - 3 * s
+
+
+class Trials(Desk):
+    def test_a_run_gives_the_bits_of_the_program(self):
+        sets = {"trial.duration_s": 1200, "behaviour.kind": "assignment_registration"}
+        summary = self.run_trial("redsea_square", "--seed", "7",
+                                 *(word for key, value in sets.items()
+                                   for word in ("--set", f"{key}={value}")))
+        dataset, measures = shoal.run("redsea_square", sets, seed=7)
+        self.assertEqual(measures, summary["metrics"])
+        program = xarray.load_dataset(self.desk / "out" / "run.nc", decode_times=False)
+        self.assertTrue(dataset.identical(program))
+        self.assertEqual(dict(dataset.sizes)["vehicle"], 20)
+
+    def test_threads_recording_and_folders_change_no_number(self):
+        plain = shoal.run("redsea_square", {"trial.duration_s": 600}).measures
+        self.assertEqual(shoal.run("redsea_square", {"trial.duration_s": 600}, threads=2,
+                                   record=False).measures, plain)
+        run = shoal.run("redsea_square", {"trial.duration_s": 600}, out=self.desk / "here",
+                        report=True)
+        self.assertEqual(run.measures, plain)
+        self.assertEqual({f.name for f in (self.desk / "here").iterdir()},
+                         {"scenario.toml", "run.nc", "summary.json", "report.html"})
+
+    def test_scenarios_may_be_names_files_and_dicts(self):
+        whole = shoal.scenario("construction_square", {"trial.duration_s": 300})
+        self.assertEqual(whole["trial"]["duration_s"], 300)
+        by_dict = shoal.run(whole).measures
+        by_name = shoal.run("construction_square", {"trial": {"duration_s": 300}}).measures
+        self.assertEqual(by_dict, by_name)
+        self.write("own.toml", 'plan.square = { rows = 2, columns = 2 }\ntrial.duration_s = 60\n')
+        by_file = shoal.run(self.desk / "own.toml").measures
+        self.assertEqual(by_file, shoal.run({"plan.square": {"rows": 2, "columns": numpy.int64(2)},
+                                             "trial.duration_s": numpy.float64(60)}).measures)
+
+    def test_errors_say_what_the_program_says(self):
+        for sets in ({"behaviour.knd": "x"}, {"trial.seed": "many"}, {"plan.square.rows": 0},
+                     {"ping.range_m": -1}):
+            (key, value), = sets.items()
+            text = json.dumps(value)
+            done = self.shoal("run", "redsea_square", "--set", f"{key}={text}")
+            sentence = done.stderr.removeprefix(f"shoal: --set {key}={text}: ").rstrip("\n")
+            with self.assertRaises(shoal.InputError) as told:
+                shoal.run("redsea_square", sets)
+            self.assertEqual(str(told.exception), sentence)
+        with self.assertRaises(shoal.InputError) as told:
+            shoal.run("nowhere")
+        self.assertIn('no file "nowhere"', str(told.exception))
+        with self.assertRaisesRegex(shoal.InputError, "a NoneType, which no option takes"):
+            shoal.run("redsea_square", {"trial.seed": None})
+        with self.assertRaises(shoal.SystemError):
+            shoal.run("redsea_square", {"trial.duration_s": 10}, out="/proc/here")
+
+    def test_other_threads_go_on_during_a_run(self):
+        ticks = []
+        over = threading.Event()
+
+        def tick():
+            while not over.is_set():
+                ticks.append(time.monotonic())
+                time.sleep(0.001)
+
+        thread = threading.Thread(target=tick)
+        thread.start()
+        began = time.monotonic()
+        shoal.run("redsea_square", {"behaviour.kind": "assignment_registration"}, record=False)
+        ended = time.monotonic()
+        over.set()
+        thread.join()
+        during = [t for t in ticks if began < t < ended]
+        self.assertGreater(len(during), 20)
+
+
+class Potentials(Desk):
+    def test_one_law_in_four_forms_gives_one_trajectory(self):
+        forms = [shoal.potential("thesis"), shoal.potential(thesis),
+                 shoal.potential(thesis, batch=True),
+                 shoal.potential("expression", formula="s^3/(2*r^2) + r - 3*s")]
+        runs = [shoal.run("construction_hexagonal", {**REPELLED, LAW: form}, seed=3)
+                for form in forms]
+        for run in runs[1:]:
+            numpy.testing.assert_allclose(run.dataset.x, runs[0].dataset.x, atol=1e-6)
+            numpy.testing.assert_allclose(run.dataset.y, runs[0].dataset.y, atol=1e-6)
+
+    def test_values_and_derivatives_are_those_of_cpp(self):
+        r = numpy.geomspace(0.2, 5000, 2001)
+        laws = {"s^3/(2*r^2) + r - 3*s": thesis,
+                "(r - s)^2/s + 5*exp(-r/20)": lambda r, s: (r - s)**2 / s + 5 * numpy.exp(-r / 20),
+                "log(r)*sin(r/s) + tanh(s/r)":
+                    lambda r, s: numpy.log(r) * numpy.sin(r / s) + numpy.tanh(s / r),
+                "sqrt(r + s) + r^1.5/cosh(r/s)":
+                    lambda r, s: numpy.sqrt(r + s) + r**1.5 / numpy.cosh(r / s),
+                "atan(r/s) + s/r - 2": lambda r, s: numpy.arctan(r / s) + s / r - 2}
+        for formula, law in laws.items():
+            exact = shoal.potential("expression", formula=formula).derivatives(r, 300.0)
+            # The unit of each order: what the largest of value, r f' and r^2 f'' makes of it.
+            scale = sum(numpy.abs(exact[k]) * r**k for k in range(3))
+            # A table promises value and slope to 1e-9; between its nodes the curvature errs by two
+            # powers of their distance more.
+            for batch, tolerances in ((False, [1e-12] * 3), (True, [1e-9, 1e-9, 1e-7])):
+                found = shoal.potential(law, batch=batch).derivatives(r, 300.0)
+                for k in range(3):
+                    worst = numpy.max(numpy.abs(found[k] - exact[k]) * r**k / scale)
+                    self.assertLess(worst, tolerances[k], f"{formula}, order {k}, batch={batch}")
+
+    def test_derivatives_may_be_given(self):
+        law = shoal.potential(lambda r, s: math.exp(-r / s), slope=lambda r, s: -math.exp(-r / s) / s,
+                              curvature=lambda r, s: math.exp(-r / s) / s**2)
+        self.assertEqual(law.derivatives(300.0, 300.0)[1], -math.exp(-1) / 300)
+
+    def test_branches_and_constants(self):
+        law = shoal.potential(lambda r, s: 0 * s + 3)
+        self.assertEqual(law.derivatives(10.0, 300.0), (3.0, 0.0, 0.0))
+        law = shoal.potential(lambda r, s: numpy.where(r < s, (r - s)**2, 0 * r))
+        self.assertEqual(law.derivatives([290.0, 310.0], 300.0)[1].tolist(), [-20.0, 0.0])
+
+    def test_what_cannot_be_used_is_refused(self):
+        with self.assertRaisesRegex(shoal.InputError, "cannot be differentiated"):
+            shoal.potential(lambda r, s: math.exp(r))
+        with self.assertRaisesRegex(shoal.InputError, "too rough"):
+            shoal.potential(lambda r, s: abs(r - s), batch=True).derivatives(1.0, 300.0)
+        with self.assertRaisesRegex(shoal.InputError, "slope and curvature, or neither"):
+            shoal.potential(thesis, slope=thesis)
+        with self.assertRaisesRegex(shoal.InputError, 'no potential "spring"'):
+            shoal.potential("spring")
+
+    def test_what_a_cost_raises_comes_out_unchanged(self):
+        def broken(r, s):
+            raise KeyError("mine")
+
+        law = shoal.potential(broken, slope=broken, curvature=broken)
+        with self.assertRaisesRegex(KeyError, "mine"):
+            shoal.run("construction_hexagonal", {**REPELLED, LAW: law}, threads=2)
+
+    def test_a_changed_function_is_another_scenario(self):
+        def law(r, s):
+            return (r - s)**2
+
+        first = shoal.potential(law)._setting_()
+        same = shoal.potential(law)._setting_()
+
+        def law(r, s):  # noqa: F811
+            return (r - s)**2 / s
+
+        other = shoal.potential(law)._setting_()
+        self.assertEqual(first, same)
+        self.assertNotEqual(first["python"]["source"], other["python"]["source"])
+
+
+class Planning(Desk):
+    def setUp(self):
+        super().setUp()
+        self.plan = shoal.Plan([[0, 0], [100, 0], [0, 100]], ["anna", "bela", "cyra"])
+
+    def ping(self, slot, place, position=(0, 0), time_s=1.0):
+        dx, dy = place[0] - position[0], place[1] - position[1]
+        return shoal.Ping(time_s=time_s, range_m=math.hypot(dx, dy), bearing_rad=math.atan2(dy, dx),
+                          slot=slot)
+
+    def test_a_planner_leads_to_the_own_slot(self):
+        # Bela and cyra sit where the plan, turned by a quarter, puts them; anna is 30 m off.
+        planner = shoal.Planner(self.plan, "pairwise_referencing", "anna")
+        position = numpy.array([1030.0, 500.0])
+        planner.receive(self.ping(1, (1000, 600), position), position)
+        planner.receive(self.ping(2, (900, 500), position), position)
+        numpy.testing.assert_allclose(planner.plan(2.0, position), [-30, 0], atol=1e-9)
+        numpy.testing.assert_allclose(planner.target(position + [5, 0]), [-35, 0], atol=1e-9)
+        self.assertEqual((planner.reason, planner.force), ("placed", None))
+
+    def test_who_hears_nobody_holds(self):
+        planner = shoal.Planner(self.plan, "rigid_registration", "bela")
+        self.assertEqual(planner.plan(1.0, [7, 7]).tolist(), [0, 0])
+        self.assertEqual(planner.reason, "no_neighbour")
+
+    def test_forces_of_a_potential(self):
+        planner = shoal.Planner(self.plan, "virtual_potential", "anna",
+                                {"waypoint_x_m": 300, "waypoint_y_m": 0},
+                                obstacles=[{"shape.kind": "circle", "shape.circle":
+                                            {"x_m": 900, "y_m": 900, "radius_m": 10}}])
+        planner.plan(1.0, shoal.OwnState([0, 0], velocity=[1, 0], speed_m_s=1.0))
+        self.assertGreater(planner.force[0], 0)
+
+    def test_what_is_wrong_is_told(self):
+        with self.assertRaisesRegex(shoal.InputError, "anna, bela and cyra"):
+            shoal.Planner(self.plan, "rigid_registration", "dora")
+        with self.assertRaisesRegex(shoal.InputError, "ownship_weigt.*ownship_weight"):
+            shoal.Planner(self.plan, "rigid_registration", "anna", {"ownship_weigt": 1})
+        planner = shoal.Planner(self.plan, "rigid_registration", "anna")
+        with self.assertRaises(shoal.InputError):
+            planner.receive(self.ping(9, (1, 1)), [0, 0])
+        with self.assertRaisesRegex(shoal.InputError, "two columns"):
+            shoal.Plan([1, 2, 3])
+
+
+class Problems(Desk):
+    def test_every_solver_that_takes_it_finds_the_minimum(self):
+        problem = shoal.Problem(lambda x: (x[0] - 1)**2 + 10 * (x[1] + 2)**2, [0, 0],
+                                lower=[-5, -5], upper=[5, 5])
+        solved = 0
+        for solver in shoal.catalogue("solver"):
+            try:
+                solution = shoal.solve(problem, solver)
+            except shoal.InputError as error:
+                self.assertIn(solver, str(error))
+                continue
+            self.assertTrue(solution.usable, solver)
+            numpy.testing.assert_allclose(solution.x, [1, -2], atol=2e-2, err_msg=solver)
+            solved += 1
+        self.assertGreater(solved, 15)
+
+    def test_derivatives_are_used_where_given(self):
+        asked = []
+        problem = shoal.Problem(lambda x: x[0]**4, [3.0], gradient=lambda x: [4 * x[0]**3],
+                                hessian=lambda x: asked.append(1) or [[12 * x[0]**2]])
+        cost, gradient, hessian = problem.evaluate([2.0])
+        self.assertEqual((cost, gradient[0], hessian[0, 0]), (16, 32, 48))
+        self.assertTrue(asked)
+        differences = shoal.Problem(lambda x: x[0]**4, [3.0]).evaluate([2.0])
+        numpy.testing.assert_allclose([differences[1][0], differences[2][0, 0]], [32, 48], rtol=1e-4)
+
+    def test_the_problems_of_a_behaviour(self):
+        posed = shoal.posed("attraction_repulsion", {"separation_m": 300}, [[200, 0], [0, 310]],
+                            shoal.Plan([[0, 0], [1, 0]]))
+        self.assertEqual(len(posed), 1)
+        newton = shoal.solve(posed[0])
+        other = shoal.solve(posed[0], "nlopt.lbfgs")
+        self.assertEqual(newton.status, "converged")
+        numpy.testing.assert_allclose(other.x, newton.x, atol=1e-3)
+
+    def test_registration_and_matching(self):
+        points = numpy.array([[0, 0], [100, 0], [0, 50], [30, 30]], float)
+        turn = numpy.array([[0, -1], [1, 0]])
+        found = shoal.register(points, points @ turn.T + [7, -3])
+        self.assertAlmostEqual(found["angle_rad"], math.pi / 2)
+        numpy.testing.assert_allclose(found["translation"], [7, -3], atol=1e-9)
+        moved = points @ turn.T + [7, -3]
+        moved[0] += 400
+        robust = shoal.register(points, moved, solver="newton", loss="tukey",
+                                weights=[1, 1, 1, 1])
+        self.assertTrue(robust["usable"])
+        match = shoal.match(points[[2, 0, 3, 1]] @ turn.T, points)
+        self.assertEqual(match["slots"], [2, 0, 3, 1])
+
+    def test_quality_is_that_of_a_run(self):
+        sets = {"trial.duration_s": 1200, "quality.layers": 0}
+        dataset, measures = shoal.run("redsea_square", sets)
+        options = shoal.scenario("redsea_square", sets)["plan"]["square"]
+        last = dataset.isel(time=-1)
+        positions = numpy.column_stack([last.x, last.y])
+        quality = shoal.formation_quality(positions, shoal.Plan.of("square", **options))
+        self.assertAlmostEqual(quality, measures["quality_final_m"], places=3)
+
+
+class Studies(Desk):
+    def test_a_sweep_gives_the_tables_of_the_program(self):
+        self.write("study.toml", STUDY)
+        self.assertEqual(self.shoal("sweep", "study.toml", "--out", "program").returncode, 0)
+        counts = []
+        frame = shoal.sweep(self.desk / "study.toml", self.desk / "python", jobs=2,
+                            progress=counts.append)
+        self.assertEqual((len(frame), counts[-1]["done"]), (9, 9))
+        shoal.write_tables(self.desk / "python")
+        for file in (self.desk / "program" / "tables").iterdir():
+            self.assertEqual((self.desk / "python" / "tables" / file.name).read_bytes(),
+                             file.read_bytes(), file.name)
+        again = shoal.sweep(self.desk / "study.toml", self.desk / "python")
+        self.assertTrue(again.equals(frame))
+        table = shoal.tables(self.desk / "python")["energy"]
+        self.assertIn("\\begin{table}", table.print("latex"))
+        self.assertIn("<table>", table._repr_html_())
+        self.assertEqual(len(table.rows), 3)
+
+    def test_a_study_may_be_a_dict(self):
+        frame = shoal.sweep({"scenario": "construction_square", "replications": 2,
+                             "set": {"trial.duration_s": 60},
+                             "factor": [{"key": "ping.period_s", "values": [10, 30]}]},
+                            self.desk / "out")
+        self.assertEqual(sorted(frame.period_s), [10, 10, 30, 30])
+        dataset = shoal.study_dataset(self.desk / "out")
+        self.assertEqual(dict(dataset.energy_mean_wh.sizes), {"period_s": 2, "replication": 2})
+        self.assertTrue((shoal.study_report(self.desk / "out")).exists())
+
+    def test_a_sweep_can_be_interrupted_and_goes_on(self):
+        self.write("study.toml", SHORT)
+
+        def stop(counts):
+            raise KeyboardInterrupt
+
+        with self.assertRaises(KeyboardInterrupt):
+            shoal.sweep(self.desk / "study.toml", self.desk / "out", jobs=1, progress=stop)
+        self.assertEqual(len(shoal.sweep(self.desk / "study.toml", self.desk / "out")), 9)
+
+
+class Catalogue(Desk):
+    def test_names_and_options_are_those_of_the_program(self):
+        listed = self.shoal("list").stdout
+        for family, members in shoal.catalogue().items():
+            for member in members:
+                if (family, member) != ("potential", "python"):
+                    self.assertIn(f"  {member}", listed)
+        options = shoal.options("behaviour", "rigid_registration")
+        self.assertIn("behaviour.rigid_registration.ownship_weight", set(options.key))
+        self.assertIn("energy_mean_wh", shoal.measures().index)
+        with self.assertRaisesRegex(shoal.InputError, "no family"):
+            shoal.catalogue("fish")
+
+    def test_the_stubs_say_what_is_there(self):
+        package = pathlib.Path(shoal.__file__).parent.parent
+        with tempfile.TemporaryDirectory() as work:
+            settings = pathlib.Path(work, "mypy.ini")
+            settings.write_text("[mypy]\nignore_missing_imports = True\n")
+            allowed = pathlib.Path(work, "allowed")  # pybind11's classes have a class of their own
+            allowed.write_text(r"shoal\._shoal\.\w+" "\n" r"shoal\._shoal\.(Solution|Table)\.__init__"
+                               "\n")
+            env = {"MYPYPATH": str(package), "PYTHONPATH": str(package), "PATH": "/usr/bin:/bin",
+                   "HOME": work}
+            for check in (["mypy.stubtest", "shoal._shoal", "--mypy-config-file", settings,
+                           "--ignore-positional-only", "--ignore-unused-allowlist", "--allowlist",
+                           allowed],
+                          ["mypy", "--config-file", settings, "-p", "shoal"]):
+                done = subprocess.run([sys.executable, "-m", *map(str, check)], cwd=work, env=env,
+                                      capture_output=True, text=True, check=False)
+                self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+
+
+if __name__ == "__main__":
+    desk.main()
