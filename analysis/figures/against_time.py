@@ -63,6 +63,33 @@ def quality(run):
     return figure
 
 
+def efficiency(run):
+    """How far the swarm comes for what it spends, so far: Rypkema 2015, figures 5.72 ff."""
+    found = run.series("efficiency_m_per_wh")
+    if found is None:
+        return None
+    figure, (axes,), clock = time_axes(run)
+    axes.set_ylabel("Path / energy (m/Wh)")
+    axes.plot(clock(found[0]), found[1], color=style.COLOURS[0])
+    axes.set_ylim(bottom=0)
+    return figure
+
+
+def energy_by_distance(run):
+    """Mean of the vehicles and their range, against the path of the swarm: Rypkema 2015, figures 5.73
+    ff."""
+    path = run.series("centroid_path_m")
+    mean, least, greatest = (run.series(f"energy_{of}_wh") for of in ("mean", "min", "max"))
+    if path is None or mean is None or len(path[1]) != len(mean[1]):
+        return None
+    figure, axes = plt.subplots()
+    axes.set_xlabel("Path of the centroid (m)")
+    axes.set_ylabel("Energy (Wh)")
+    envelope(axes, path[1], least[1], mean[1], greatest[1])
+    axes.legend(loc="best")
+    return figure
+
+
 def thrust(run):
     """Shares of time and distance thrusting: Rypkema 2015, figures 5.76 ff."""
     shares = [(run.series(f"thrust_{of}_ratio_mean"), label)

@@ -9,8 +9,17 @@ import subprocess
 
 import desk
 from desk import Desk
+from study_desk import SHORT
 
-TIME = {"speeds", "energy", "thrust"}
+COMPARISON = """
+[[comparison]]
+name = "difference"
+factor = "delta_theta_deg"
+reference = "10"
+metrics = ["energy_mean_wh"]
+"""
+
+TIME = {"speeds", "energy", "energy_by_distance", "efficiency", "thrust"}
 FIGURES = {"potentials_channel": {*TIME, "trajectories", "quality", "passage"},
            "potentials_clutter": {*TIME, "trajectories", "quality", "passage"},
            "potentials_basin": {*TIME, "trajectories", "basin", "passage"},
@@ -57,12 +66,55 @@ class Figures(Desk):
         width = float(pages.split("Page size:")[1].split()[0])
         self.assertAlmostEqual(width / 72 * 2.54, 17.4, places=1)
 
+    def test_a_study_has_a_figure_of_every_table_with_numbers(self):
+        self.write("study.toml", SHORT + COMPARISON)
+        done = self.shoal("sweep", "study.toml", "--out", "out")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        files = self.drawn("out")
+        self.assertEqual({file.stem for file in files},
+                         {"energy", "against_time", "difference"})
+        self.assertEqual(self.drawn("out", "--only", "energy"),
+                         {file for file in files if file.stem == "energy"})
+        done = self.shoal("report", "out")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        page = (self.desk / "out" / "report.html").read_text()
+        self.assertEqual(page.count("data:image/svg+xml;base64,"), 3)
+
+    def test_indices_of_a_sensitivity(self):
+        self.write("study.toml", """scenario = "construction_square"
+set = { trial.duration_s = 30 }
+replications = 1
+design = { kind = "saltelli", saltelli = { base_samples = 8 } }
+[[factor]]
+key = "ping.period_s"
+range = [5, 30]
+[[factor]]
+key = "guidance.drifting_radius_m"
+range = [15, 40]
+[[sensitivity]]
+name = "indices"
+metrics = ["energy_mean_wh"]
+""")
+        done = self.shoal("sweep", "study.toml", "--out", "out")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertIn("indices", {file.stem for file in self.drawn("out")})
+
+    def test_performance_profiles(self):
+        self.shoal("run", "construction_hexagonal", "--set", "behaviour.kind=attraction_repulsion",
+                   "--set", "trial.duration_s=300", "--record-problems", "problems.jsonl", "--out",
+                   "out")
+        done = self.shoal("solve", "problems.jsonl", "--solvers", "newton,nlopt.lbfgs", "--profiles",
+                          "profiles.csv")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertEqual({str(file) for file in self.drawn("profiles.csv")},
+                         {"figures/profiles.pdf", "figures/profiles.svg"})
+
     def test_says_what_is_wrong(self):
         self.assert_complains(self.shoal("figures", "."), 2, ["has no scenario.toml"])
-        self.assert_complains(self.shoal("figures"), 2, ["required: run", "--help"])
+        self.assert_complains(self.shoal("figures"), 2, ["required: what", "--help"])
         self.recorded("potentials_channel")
         self.assert_complains(self.shoal("figures", "potentials_channel", "--only", "spedes"), 2,
-                              ["'spedes'", "speeds"])
+                              ['"spedes"', "speeds"])
         self.assert_complains(self.shoal("figures", "potentials_channel", "--only", "basin"), 2,
                               ["nothing that these figures show"])
         record = self.desk / "potentials_channel/run.nc"
