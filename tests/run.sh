@@ -27,6 +27,6 @@ step 'format and lint'
 step 'sanitizers'
 cmake --preset asan >/dev/null
 cmake --build --preset asan
-ctest --test-dir build/asan --output-on-failure --exclude-regex 'install|python|browser'
+ctest --test-dir build/asan --output-on-failure --exclude-regex 'install|python|browser|slurm'
 
 step 'done'
