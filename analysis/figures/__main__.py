@@ -19,6 +19,7 @@ except ImportError as missing:
 matplotlib.use("Agg")  # no screen
 
 import against_time  # noqa: E402
+import of_models  # noqa: E402
 import of_study  # noqa: E402
 import over_ground  # noqa: E402
 import style  # noqa: E402
@@ -36,6 +37,10 @@ FIGURES = {
     "quality": against_time.quality,
     "thrust": against_time.thrust,
     "passage": against_time.passage,
+    "current": of_models.current,
+    "potential": of_models.potential,
+    "cost_surface": of_models.cost_surface,
+    "filter_lag": of_models.filter_lag,
 }
 
 

@@ -2,7 +2,6 @@
 #include <unistd.h>
 
 #include <cmath>
-#include <cstdlib>
 #include <filesystem>
 
 #include "commands.hpp"
@@ -10,7 +9,6 @@
 #include "shoal/analysis/study/study_tables.hpp"
 #include "shoal/analysis/study/sweep.hpp"
 #include "shoal/core/text.hpp"
-#include "shoal/scenarios/library_path.hpp"
 #include "shoal/scenarios/toml_file.hpp"
 
 namespace shoal::program {
@@ -80,22 +78,13 @@ analysis::StudyPlan plan_of(const SweepArguments& arguments) {
   return plan;
 }
 
-/// Where the Python package is: below the build, or where it was installed.
-fs::path package_path() {
-  const fs::path prefix = scenarios::library_path().parent_path().parent_path().parent_path();
-  for (const fs::path& candidate : {prefix / "python", prefix / SHOAL_PYTHON_DIR}) {
-    if (fs::exists(candidate / "shoal")) return candidate;
-  }
-  throw SystemError("this shoal was built without its Python package, which --dask needs");
-}
-
 [[noreturn]] void sweep_by_dask(const SweepArguments& arguments) {
   if (!arguments.shard.empty() || arguments.fail_fast) {
     throw InputError("--dask takes neither --shard nor --fail-fast: workers share all trials");
   }
-  const char* others = std::getenv("PYTHONPATH");
-  const std::string path = package_path().string() + (others ? ":" + std::string(others) : "");
-  ::setenv("PYTHONPATH", path.c_str(), 1);
+  if (package_path().empty()) {
+    throw SystemError("this shoal was built without its Python package, which --dask needs");
+  }
   std::vector<std::string> words{"-m", "shoal.distributed", arguments.study, arguments.dask};
   if (!arguments.out.empty()) words.insert(words.end(), {"--out", arguments.out});
   words.insert(words.end(), {"--batch", std::to_string(arguments.batch)});

@@ -35,6 +35,12 @@ py::array_t<double> slots_of(const Plan& plan) {
   return array;
 }
 
+formations::PingFilterOptions filter_options(const py::dict& options) {
+  formations::PingFilterOptions filter;
+  shoal::read(filter, to_setting(options), "ping_filter");
+  return filter;
+}
+
 /// A planner with all that it needs to live.
 class Planner {
  public:
@@ -44,7 +50,7 @@ class Planner {
         behaviour_(Registry<Behaviour>::instance().make(behaviour, to_setting(options),
                                                         "behaviour." + behaviour)),
         obstacles_(make_obstacles(obstacles)),
-        planner_(plan_, behaviour_, vehicle, filter(ping_filter), obstacles_) {}
+        planner_(plan_, behaviour_, vehicle, filter_options(ping_filter), obstacles_) {}
 
   void receive(const Ping& ping, const Eigen::Vector2d& position) {
     planner_.receive(ping, position);
@@ -65,12 +71,6 @@ class Planner {
   const Plan& formation() const { return *plan_; }
 
  private:
-  static formations::PingFilterOptions filter(const py::dict& options) {
-    formations::PingFilterOptions filter;
-    shoal::read(filter, to_setting(options), "ping_filter");
-    return filter;
-  }
-
   static std::vector<std::shared_ptr<const formations::Obstacle>> make_obstacles(
       const py::list& list) {
     std::vector<scenarios::ObstacleOptions> options;
@@ -160,6 +160,29 @@ void add_planners(py::module_& module) {
       .def_readonly("bearing_rad", &Ping::bearing_rad)
       .def_readonly("elevation_rad", &Ping::elevation_rad)
       .def_readonly("slot", &Ping::slot);
+
+  using formations::PingFilter;
+  py::class_<PingFilter>(module, "PingFilter",
+                         "Keeps track of the neighbours of one vehicle from their pings: Rypkema "
+                         "2015, Alg. 3. Options as\n"
+                         "in a scenario's ping_filter. Raises InputError.")
+      .def(py::init([](const py::dict& options) { return PingFilter(filter_options(options)); }),
+           py::arg("options") = py::dict())
+      .def("receive", &PingFilter::receive, py::arg("ping"), py::arg("position"),
+           "A ping was heard while the vehicle was at `position`. In time order.")
+      .def(
+          "neighbours",
+          [](PingFilter& filter, double time_s, const Eigen::Vector2d& position) {
+            const auto found = filter.neighbours(time_s, position);
+            py::array_t<double> places({static_cast<py::ssize_t>(found.size()), py::ssize_t{2}});
+            for (std::size_t i = 0; i < found.size(); ++i) {
+              places.mutable_at(i, 0) = found[i].position.x();
+              places.mutable_at(i, 1) = found[i].position.y();
+            }
+            return places;
+          },
+          py::arg("time_s"), py::arg("position"),
+          "Array (neighbours, 2), metres relative to the vehicle, in the order first heard.");
 
   py::class_<Planner>(
       module, "Planner",

@@ -1,3 +1,4 @@
+#include <limits>
 #include <optional>
 
 #include "conversions.hpp"
@@ -57,6 +58,26 @@ double quality(const Array& positions, const formations::Plan& plan, const std::
       .of(places);
 }
 
+/// The current of a scenario at places, one after the other: none where it knows none.
+py::tuple current(const py::object& scenario, double time_s, const Array& x, const Array& y) {
+  const auto sea = read(scenario, {}).current.make();
+  if (x.size() != y.size()) throw InputError("x and y must be equally many");
+  const std::vector<py::ssize_t> shape(x.shape(), x.shape() + x.ndim());
+  Array u(shape), v(shape);
+  for (py::ssize_t i = 0; i < x.size(); ++i) {
+    double velocity[2];
+    const double place[] = {x.data()[i], y.data()[i]};
+    try {
+      sea->sample(time_s, {place, 1}, {place + 1, 1}, {velocity, 1}, {velocity + 1, 1});
+    } catch (const InputError&) {
+      velocity[0] = velocity[1] = std::numeric_limits<double>::quiet_NaN();
+    }
+    u.mutable_data()[i] = velocity[0];
+    v.mutable_data()[i] = velocity[1];
+  }
+  return py::make_tuple(u, v);
+}
+
 }  // namespace
 
 void add_trials(py::module_& module) {
@@ -68,6 +89,8 @@ void add_trials(py::module_& module) {
         return to_python(scenarios::resolved_scenario(read(scenario, changes)));
       },
       py::arg("scenario"), py::arg("set"));
+  module.def("current", &current, py::arg("scenario"), py::arg("time_s"), py::arg("x"),
+             py::arg("y"));
   module.def(
       "formation_quality", &quality, py::arg("positions"), py::arg("plan"),
       py::arg("alignment") = "centroid", py::arg("delta_theta_deg") = 10.0,

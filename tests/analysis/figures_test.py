@@ -20,10 +20,12 @@ metrics = ["energy_mean_wh"]
 """
 
 TIME = {"speeds", "energy", "energy_by_distance", "efficiency", "thrust"}
-FIGURES = {"potentials_channel": {*TIME, "trajectories", "quality", "passage"},
-           "potentials_clutter": {*TIME, "trajectories", "quality", "passage"},
+FIGURES = {"potentials_channel": {*TIME, "trajectories", "quality", "passage", "filter_lag"},
+           "potentials_clutter": {*TIME, "trajectories", "quality", "passage", "filter_lag"},
            "potentials_basin": {*TIME, "trajectories", "basin", "passage"},
-           "redsea_square": {*TIME, "trajectories", "quality"}}
+           "redsea_square": {*TIME, "trajectories", "quality", "current"},
+           "construction_hexagonal": {*TIME, "trajectories", "quality", "potential", "cost_surface"}}
+REPEL = ("--set", "behaviour.kind=attraction_repulsion")
 BEGINS = {".pdf": b"%PDF-", ".svg": b"<?xml"}
 
 
@@ -40,7 +42,7 @@ class Figures(Desk):
 
     def test_every_kind_of_run_has_its_figures(self):
         for scenario, names in FIGURES.items():
-            self.recorded(scenario)
+            self.recorded(scenario, *(REPEL if "potential" in names else ()))
             files = self.drawn(scenario)
             self.assertEqual({file.stem for file in files}, names)
             for file in files:

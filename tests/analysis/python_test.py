@@ -199,6 +199,22 @@ class Planning(Desk):
         self.assertEqual(planner.plan(1.0, [7, 7]).tolist(), [0, 0])
         self.assertEqual(planner.reason, "no_neighbour")
 
+    def test_the_filter_smooths_and_lags(self):
+        tracks = shoal.PingFilter({"timeout_s": 120})
+        for k in range(5):  # runs away at 1 m/s, heard every 30 s
+            tracks.receive(self.ping(1, (100 + 30 * k, 0), time_s=30.0 * k), [0, 0])
+        (east, north), = tracks.neighbours(120.0, [0, 0])
+        # Weights 1, 3/4, 1/2, 1/4 of 220, 190, 160 and 130 m (Rypkema 2015, Alg. 3): 190 m.
+        self.assertAlmostEqual(east, 190.0)
+        self.assertAlmostEqual(north, 0.0)
+
+    def test_the_current_of_a_scenario(self):
+        sets = {"current.kind": "uniform", "current.uniform": {"u_m_s": 0.1, "v_m_s": -0.2}}
+        u, v = shoal.current(shoal.scenario("construction_square", sets), 0.0, [[0, 9]], [[0, 9]])
+        self.assertEqual((u.tolist(), v.tolist()), ([[0.1, 0.1]], [[-0.2, -0.2]]))
+        u, _ = shoal.current("redsea_square", 0.0, [0.0, 1e6], [0.0, 0.0])
+        self.assertTrue(math.isfinite(u[0]) and math.isnan(u[1]))
+
     def test_forces_of_a_potential(self):
         planner = shoal.Planner(self.plan, "virtual_potential", "anna",
                                 {"waypoint_x_m": 300, "waypoint_y_m": 0},

@@ -30,3 +30,17 @@ if ldd prefix/bin/shoal | grep -F "$(cd "$build" && pwd)"; then
   echo "the installed shoal uses libraries of the build" >&2
   exit 1
 fi
+
+# The Python package and the report, where they were installed.
+prefix/bin/shoal run construction_square --set trial.duration_s=60 --out out
+[ -s out/report.html ]
+for package in prefix/lib/python3*/dist-packages; do
+  PYTHONPATH=$package /usr/bin/python3 -B - <<'PYTHON'
+import json
+import shoal
+
+wanted = json.load(open("out/summary.json"))["metrics"]
+assert shoal.run("construction_square", {"trial.duration_s": 60}).measures == wanted
+print("the installed package runs", shoal.program)
+PYTHON
+done

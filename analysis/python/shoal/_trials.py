@@ -41,6 +41,12 @@ def scenario(scenario: str | os.PathLike[str] | Mapping[str, Any],
     return _shoal.scenario(plain(scenario), dict(set or {}))
 
 
+def current(scenario: str | os.PathLike[str] | Mapping[str, Any], time_s: float, x, y):
+    """The current of a scenario: velocities (u, v) in m/s, east and north, at positions (m) of any shape,
+    at a time since mission start; NaN where it is not known. Raises InputError."""
+    return _shoal.current(plain(scenario), time_s, x, y)
+
+
 def run(scenario: str | os.PathLike[str] | Mapping[str, Any],
         set: Mapping[str, Any] | None = None, seed: int | None = None, *, threads: int = 1,
         record: bool = True, out: str | os.PathLike[str] | None = None,

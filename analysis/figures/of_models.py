@@ -1,0 +1,150 @@
+"""Figures of what a run was made of: they ask the Python package, and are left out where it was not
+built."""
+
+import math
+
+import matplotlib.pyplot as plt
+import matplotlib.ticker
+import numpy
+import over_ground
+import style
+
+try:
+    import shoal
+except ImportError:
+    shoal = None
+
+
+def attraction_repulsion(run):
+    """The options of that behaviour, if it is the one of the run."""
+    behaviour = run.scenario["behaviour"]
+    if shoal is None or behaviour["kind"] != "attraction_repulsion":
+        return None
+    options = behaviour["attraction_repulsion"]
+    # A function of Python's is known to the program that ran it, and to nobody else.
+    return None if options["potential"]["kind"] == "python" else options
+
+
+def potential(run):
+    """The pair potential, its slope and its curvature: Rypkema 2015, figure 3.6 (which draws the slope
+    below)."""
+    options = attraction_repulsion(run)
+    if options is None:
+        return None
+    kind, s = options["potential"]["kind"], options["separation_m"]
+    r = numpy.linspace(0.35 * s, 2.2 * s, 600)
+    law = shoal.potential(kind, **options["potential"].get(kind, {}))
+    figure, axes = plt.subplots(3, 1, sharex=True)
+    figure.set_figheight(1.6 * figure.get_figheight())
+    for ax, values, label in zip(axes, law.derivatives(r, s), ("Value", "Slope (1/m)", "Curvature (1/m2)")):
+        ax.plot(r, values, color=style.COLOURS[0])
+        ax.axvline(s, color=style.GROUND, linewidth=0.8, zorder=0)
+        ax.set_ylabel(label)
+    axes[1].axhline(0, color=style.GROUND, linewidth=0.8, zorder=0)
+    axes[-1].set_xlabel("Distance (m)")
+    figure.align_ylabels()
+    return figure
+
+
+def cost_surface(run):
+    """The cost that the first vehicle meets at the end of the run, by where it would go, and where it is
+    told to go: Rypkema 2015, figure 3.7."""
+    options = attraction_repulsion(run)
+    if options is None:
+        return None
+    x, y = run.by_vehicle("x")[-1], run.by_vehicle("y")[-1]
+    left = numpy.flatnonzero(numpy.isfinite(x))
+    if len(left) < 2:
+        return None
+    own, others = left[0], left[1:]
+    neighbours = numpy.column_stack([x[others] - x[own], y[others] - y[own]])
+    plan = shoal.Plan([[0, 0], [options["separation_m"], 0]])
+    posed = shoal.posed("attraction_repulsion", options, neighbours, plan)
+    if not posed:
+        return None
+    problem = posed[0]
+    reach = 1.3 * options["separation_m"]
+    axis = numpy.linspace(-reach, reach, 121)
+    surface = numpy.array([[problem.evaluate([east, north])[0] for east in axis] for north in axis])
+    # What rises without bound next to a vehicle would hide all else.
+    finite = surface[numpy.isfinite(surface)]
+    top = numpy.percentile(finite, 85)
+    figure, axes = plt.subplots()
+    levels = matplotlib.ticker.MaxNLocator(14).tick_values(finite.min(), top)
+    shown = axes.contourf(axis, axis, numpy.minimum(surface, top), levels=levels, cmap="cividis")
+    figure.colorbar(shown, ax=axes, label="Cost", shrink=0.8)
+    near = numpy.abs(neighbours).max(axis=1) <= reach
+    axes.plot(*neighbours[near].T, "o", color=style.COLOURS[1], markersize=4, label="neighbours")
+    axes.plot(0, 0, "x", color="white", markersize=5, label="vehicle")
+    target = shoal.solve(problem).x
+    axes.plot(*target, "*", color="white", markersize=7, label="minimum")
+    axes.set_aspect("equal")
+    axes.set_xlabel("East of the vehicle (m)")
+    axes.set_ylabel("North of the vehicle (m)")
+    legend = axes.legend(loc="lower center", bbox_to_anchor=(0.5, 1.0), ncol=3)
+    for text in legend.get_texts():
+        text.set_color("black")
+    for handle in legend.legend_handles if hasattr(legend, "legend_handles") else legend.legendHandles:
+        if handle.get_color() == "white":
+            handle.set_color("black")
+    return figure
+
+
+def filter_lag(run):
+    """What the ping filter makes of a neighbour's range from the first vehicle, with noise drawn anew:
+    Rypkema 2015, figure 3.5. The neighbour is the one that is never far."""
+    x, y = run.by_vehicle("x"), run.by_vehicle("y")
+    if shoal is None or x.shape[1] < 2:
+        return None
+    farthest = numpy.hypot(x[:, 1:] - x[:, :1], y[:, 1:] - y[:, :1]).max(axis=0)
+    if numpy.isnan(farthest).all():  # somebody was lost from every pair
+        return None
+    pair = (0, 1 + int(numpy.nanargmin(farthest)))
+    ping, last = run.scenario["ping"], run.time_s[-1]
+    noise = numpy.random.default_rng(1)
+    tracks = shoal.PingFilter(run.scenario["ping_filter"])
+    times, measured, filtered, actual = [], [], [], []
+    for time in numpy.arange(ping["first_s"] + ping["period_s"], last, ping["period_s"]):
+        place = [numpy.array([numpy.interp(time, run.time_s, x[:, i]),
+                              numpy.interp(time, run.time_s, y[:, i])]) for i in pair]
+        offset = place[1] - place[0]
+        distance = math.hypot(*offset)
+        if not distance <= ping["range_m"]:
+            continue
+        heard = max(0.0, distance + noise.normal(0, ping["range_sd_m"]))
+        bearing = math.atan2(offset[1], offset[0]) + math.radians(noise.normal(0, ping["bearing_sd_deg"]))
+        tracks.receive(shoal.Ping(time_s=time, range_m=heard, bearing_rad=bearing, slot=1), place[0])
+        times.append(time)
+        actual.append(distance)
+        measured.append(heard)
+        filtered.append(math.hypot(*tracks.neighbours(time, place[0])[0]))
+    if len(times) < 2:
+        return None
+    figure, axes = plt.subplots()
+    scale = 3600 if last > 3600 else 1
+    axes.plot(numpy.array(times) / scale, measured, ".", color=style.COLOURS[5], markersize=3,
+              label="measured")
+    axes.plot(numpy.array(times) / scale, actual, color=style.COLOURS[6], label="actual")
+    axes.plot(numpy.array(times) / scale, filtered, color=style.COLOURS[1], label="filtered")
+    axes.set_xlabel("Time (h)" if scale > 1 else "Time (s)")
+    axes.set_ylabel("Range of a neighbour (m)")
+    axes.legend(loc="best")
+    return figure
+
+
+def current(run):
+    """The current where the swarm went, in the middle of its mission: Rypkema 2015, figure 4.3."""
+    if shoal is None or run.scenario["current"]["kind"] == "none":
+        return None
+    x, y = run.by_vehicle("x"), run.by_vehicle("y")
+    figure, axes = over_ground.plane(run, x[numpy.isfinite(x)], y[numpy.isfinite(y)])
+    east, north = (numpy.linspace(*limits, 17)[1:-1] for limits in (axes.get_xlim(), axes.get_ylim()))
+    east, north = numpy.meshgrid(east, north)
+    u, v = shoal.current(run.scenario, float(run.time_s[-1]) / 2, east, north)
+    if not numpy.isfinite(u).any() or not numpy.nanmax(numpy.hypot(u, v)) > 0:
+        plt.close(figure)
+        return None
+    arrows = axes.quiver(east, north, u, v, color=style.COLOURS[0], angles="xy", width=0.004)
+    fastest = float(f"{numpy.nanmax(numpy.hypot(u, v)):.1g}")
+    axes.quiverkey(arrows, 0.85, 1.04, fastest, f"{fastest:g} m/s", labelpos="E")
+    return figure
