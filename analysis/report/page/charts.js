@@ -14,8 +14,6 @@ class Charts {
     this.build();
   }
 
-  width() { return Math.max(this.place.clientWidth, 200); }
-
   resize() {
     const columns = getComputedStyle(this.place).gridTemplateColumns.split(" ");
     for (const chart of this.charts) {

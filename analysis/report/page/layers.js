@@ -91,15 +91,19 @@ function drawEnds(ctx, {trial, camera, look}) {
   for (let i = 0; i < trial.size; ++i) {
     const [x, y] = camera.toScreen(...trial.position(i, 0));
     ctx.strokeStyle = look.ink;
-    ctx.beginPath();
-    ctx.moveTo(x - 4, y - 4);
-    ctx.lineTo(x + 4, y + 4);
-    ctx.moveTo(x + 4, y - 4);
-    ctx.lineTo(x - 4, y + 4);
-    ctx.stroke();
+    cross(ctx, x, y, 4);
     ctx.strokeStyle = look.accent;
     circle(ctx, ...camera.toScreen(...trial.lastSeen(i).place), 4);
   }
+}
+
+function cross(ctx, x, y, reach) {
+  ctx.beginPath();
+  ctx.moveTo(x - reach, y - reach);
+  ctx.lineTo(x + reach, y + reach);
+  ctx.moveTo(x + reach, y - reach);
+  ctx.lineTo(x - reach, y + reach);
+  ctx.stroke();
 }
 
 function circle(ctx, x, y, radius) {
@@ -212,12 +216,7 @@ function drawVehicles(ctx, {trial, camera, time, selected, look}) {
 function drawLost(ctx, [x, y], look) {
   ctx.strokeStyle = look.quiet;
   circle(ctx, x, y, 5);
-  ctx.beginPath();
-  ctx.moveTo(x - 3, y - 3);
-  ctx.lineTo(x + 3, y + 3);
-  ctx.moveTo(x + 3, y - 3);
-  ctx.lineTo(x - 3, y + 3);
-  ctx.stroke();
+  cross(ctx, x, y, 3);
 }
 
 /** A round length of about a fifth of the picture, and the north. */
