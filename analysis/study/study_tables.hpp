@@ -31,8 +31,8 @@ std::string contrast_text(const ContrastResult& contrast);
 /// Section, statement, verdict and numbers of every claim.
 Table claims_table(const std::vector<JudgedClaim>& claims);
 
-/// Writes tables/NAME.{tex,csv,md} into the folder, that of the claims (if any) last, and takes away
-/// what earlier tables left there. Returns how many tables there are.
+/// Writes tables/NAME.{tex,csv,md} into the folder, that of the claims (if any) last, and takes
+/// away what earlier tables left there. Returns how many tables there are.
 std::size_t write_tables(std::vector<Table> tables, const std::vector<JudgedClaim>& claims,
                          const std::filesystem::path& folder);
 
