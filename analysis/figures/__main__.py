@@ -62,7 +62,12 @@ def of_folder(folder):
         return {name: lambda table=table: of_study.figure_of(table, study.requests.get(table.name, {}))
                 for name, table in study.tables.items()}
     run = RecordedRun(folder)
-    return {name: lambda draw=draw: draw(run) for name, draw in FIGURES.items()}
+    known = {name: draw for name, draw in FIGURES.items()
+             if of_models.shoal or draw.__module__ != "of_models"}
+    if len(known) < len(FIGURES):
+        print("without shoal's Python package there are no figures "
+              + ", ".join(name for name in FIGURES if name not in known))
+    return {name: lambda draw=draw: draw(run) for name, draw in known.items()}
 
 
 def main():
