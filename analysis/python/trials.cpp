@@ -10,8 +10,6 @@
 namespace shoal::python {
 namespace {
 
-namespace fs = std::filesystem;
-
 /// A scenario by name, by path, or as a dict, with changes by dotted keys.
 scenarios::Scenario read(py::object scenario, const py::dict& changes) {
   Setting root;
