@@ -99,7 +99,6 @@ class Distributed(StudyDesk):
         self.assertEqual(events, ["killed"])
         self.assertEqual(len(frame), 24)
         self.assertEqual(set(frame.status), {"done"})
-        shoal.write_tables(self.desk / "many")
         self.assert_same_study("one", "many")
         late = [worker for worker in client.scheduler_info()["workers"].values()]
         self.assertEqual(len(late), 2)

@@ -302,7 +302,6 @@ class Studies(Desk):
         frame = shoal.sweep(self.desk / "study.toml", self.desk / "python", jobs=2,
                             progress=counts.append)
         self.assertEqual((len(frame), counts[-1]["done"]), (9, 9))
-        shoal.write_tables(self.desk / "python")
         for file in (self.desk / "program" / "tables").iterdir():
             self.assertEqual((self.desk / "python" / "tables" / file.name).read_bytes(),
                              file.read_bytes(), file.name)

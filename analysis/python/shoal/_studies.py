@@ -27,7 +27,8 @@ def sweep(study: str | os.PathLike[str] | Mapping[str, Any],
           out: str | os.PathLike[str] | None = None, *, jobs: int | None = None,
           replications: int = 0, rerun_changed: bool = False, retry_failed: bool = False,
           progress: Callable[[dict[str, Any]], None] | None = None) -> pandas.DataFrame:
-    """Runs the trials of a study that a folder does not hold yet, and returns them all: see trials().
+    """Runs the trials of a study that a folder does not hold yet, writes its tables into the folder, and
+    returns all trials: see trials().
 
     study: a name of those that ship, a file, or a dict. jobs: trials at a time; default: all
     processors. replications: instead of those of the study. progress: called a few times a second with
@@ -37,6 +38,7 @@ def sweep(study: str | os.PathLike[str] | Mapping[str, Any],
     folder = folder_of(study, out)
     _shoal.sweep(plain(study), folder, jobs or os.cpu_count() or 1, replications, rerun_changed,
                  retry_failed, progress)
+    write_tables(folder)
     return trials(folder)
 
 

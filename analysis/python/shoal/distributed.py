@@ -24,7 +24,7 @@ import uuid
 from typing import TYPE_CHECKING, Any, Callable, Mapping
 
 from . import _shoal
-from ._studies import folder_of, trials
+from ._studies import folder_of, trials, write_tables
 from ._trials import plain
 
 if TYPE_CHECKING:
@@ -40,8 +40,8 @@ def sweep(study: str | os.PathLike[str] | Mapping[str, Any], client: Client,
           out: str | os.PathLike[str] | None = None, *, batch: int = 1, replications: int = 0,
           rerun_changed: bool = False, retry_failed: bool = False,
           progress: Callable[[dict[str, Any]], None] | None = None) -> pandas.DataFrame:
-    """Runs on the workers of a client the trials of a study that a folder does not hold yet, and
-    returns them all: see shoal.trials().
+    """Runs on the workers of a client the trials of a study that a folder does not hold yet, writes its
+    tables into the folder, and returns all trials: see shoal.trials().
 
     batch: trials of a task; more than one pays for trials shorter than some 50 ms. The other arguments
     are those of shoal.sweep(). Interrupted or cut off, it goes on where it was when called again.
@@ -54,6 +54,7 @@ def sweep(study: str | os.PathLike[str] | Mapping[str, Any], client: Client,
                                   _Threads(client).now())
     run(open_sweep, client, batch, progress)
     open_sweep.end()
+    write_tables(folder)
     return trials(folder)
 
 
@@ -160,7 +161,6 @@ def _main() -> int:
             print(f"{last['failed']} failed; the first: {last['first_failure']}")
     else:
         print(f"{folder}: all trials are stored already")
-    _shoal.write_tables(folder)
     print(f"written: {folder}/tables")
     return 0
 
