@@ -50,7 +50,7 @@ processes+=($!)
 slurmd -D -f slurm.conf >d.log 2>&1 &
 processes+=($!)
 for _ in $(seq 200); do sinfo -h -o %T 2>/dev/null | grep -q idle && break; sleep 0.2; done
-sinfo -h -o %T 2>/dev/null | grep -q idle || { tail -5 ctld.log d.log munge.out; echo "skipped: Slurm does not start on this machine"; exit 0; }
+sinfo -h -o %T 2>/dev/null | grep -q idle || { tail -n 5 ctld.log d.log munge.out; echo "skipped: Slurm does not start on this machine"; exit 0; }
 
 cat >study.toml <<STUDY
 scenario = "construction_square"
