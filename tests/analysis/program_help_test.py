@@ -1,0 +1,125 @@
+"""What `shoal list`, `describe` and `check` tell.
+
+    python3 program_help_test.py SHOAL
+"""
+
+import desk
+from desk import Desk
+
+BEHAVIOURS = ["assignment_registration", "attraction_repulsion", "pairwise_referencing",
+              "rigid_registration"]
+
+
+class Help(Desk):
+    def say(self, *arguments):
+        done = self.shoal(*arguments)
+        self.assertEqual((done.returncode, done.stderr), (0, ""))
+        return done.stdout
+
+    def test_help_names_the_commands(self):
+        for command in ["run", "list", "describe", "check", "corpus", "solve"]:
+            self.assertIn(command, self.say("--help"))
+            self.assertIn("--help", self.say(command, "--help"))
+
+    def test_version(self):
+        self.assertRegex(self.say("--version"), r"\Ashoal \d+\.\d+\.\d+\n\Z")
+
+    def test_list_shows_every_family_and_scenario(self):
+        everything = self.say("list")
+        for name in [*BEHAVIOURS, "netcdf", "hexagonal", "drifter", "redsea_square", "letters_nr"]:
+            self.assertIn(f"  {name}", everything)
+        self.assertNotIn("netcdf", self.say("list", "behaviour"))
+
+    def test_list_takes_a_family_in_the_plural_too(self):
+        for one, many in [("behaviour", "behaviours"), ("solver", "solvers"), ("loss", "losses"),
+                          ("scenario", "scenarios")]:
+            self.assertEqual(self.say("list", one), self.say("list", many))
+        self.assertIn("  nlopt.lbfgs ", self.say("list", "solvers"))
+
+    def test_describe_a_member_says_which_keys_set_it(self):
+        text = self.say("describe", "rigid_registration")
+        self.assertIn("behaviour.rigid_registration.ownship_weight\n", text)
+        self.assertIn("default 1.0", text)
+
+    def test_describe_a_key(self):
+        key = "behaviour.assignment_registration.delta_theta_deg"
+        text = self.say("describe", key)
+        self.assertTrue(text.startswith(key + "\n"))
+        self.assertIn("takes a number above 0 and at most 180 deg; default 45.0", text)
+
+    def test_describe_a_member_whose_name_has_a_dot(self):
+        path = "behaviour.attraction_repulsion.solver.nlopt.lbfgs"
+        text = self.say("describe", "nlopt.lbfgs")
+        self.assertTrue(text.startswith("nlopt.lbfgs (solver): NLopt: "))
+        self.assertIn(path + ".max_evaluations\n", text)
+        self.assertEqual(self.say("describe", path), text)
+        option = self.say("describe", path + ".max_evaluations")
+        self.assertTrue(option.startswith(path + ".max_evaluations\n"))
+        self.assertIn("takes an integer from 1 to 1e+09; default ", option)
+        self.assertIn(option, text)
+        choice = self.say("describe", "behaviour.attraction_repulsion.solver.kind")
+        self.assertIn("  nlopt.bobyqa ", choice)
+
+    def test_describe_a_table(self):
+        text = self.say("describe", "ping")
+        for part in ["ping.period_s\n", "above 0 s; default 30.0", '"synchronous", "staggered"']:
+            self.assertIn(part, text)
+
+    def test_describe_a_choice_lists_its_members(self):
+        for name in ["behaviour", "behaviour.kind"]:
+            for behaviour in BEHAVIOURS:
+                self.assertIn(f"  {behaviour} ", self.say("describe", name))
+
+    def test_describe_finds_both_an_option_and_a_member_of_that_name(self):
+        text = self.say("describe", "plan")
+        self.assertIn("plan.kind\n", text)
+        self.assertIn("plan (start)", text)
+
+    def test_list_measures_shows_what_they_yield(self):
+        text = self.say("list", "measures")
+        for line in ["  energy ", "      energy_rate_w ", "      thrust_time_ratio_mean "]:
+            self.assertIn("\n" + line, text)
+        self.assertNotIn("energy_rate_w", self.say("list", "behaviour"))
+
+    def test_describe_what_a_measure_yields(self):
+        self.assertEqual(self.say("describe", "energy_rate_w"),
+                         "energy_rate_w (value of a trial, in W): "
+                         "mean power in the last 60 % of the mission\n")
+        text = self.say("describe", "energy_mean_wh")
+        self.assertIn("energy_mean_wh (value of a trial, in Wh): ", text)
+        self.assertIn("energy_mean_wh (series of a trial, in Wh): ", text)
+        self.assertIn("(value of a trial, a pure number)", self.say("describe", "fragments"))
+
+    def test_describe_finds_both_a_measure_and_a_series_of_that_name(self):
+        text = self.say("describe", "quality")
+        for line in ["quality: how the formation quality is measured",
+                     "quality (measure): ", "quality (series of a trial, in m): "]:
+            self.assertIn(line, text)
+
+    def test_what_list_measures_shows_is_what_a_run_says(self):
+        self.write("brief.toml", "trial.duration_s = 60\n")
+        metrics = self.run_trial("brief.toml")["metrics"]
+        listed = self.say("list", "measures")
+        for name in metrics:
+            self.assertIn(f"      {name} ", listed)
+
+    def test_a_described_scenario_is_a_scenario(self):
+        self.write("copy.toml", self.say("describe", "redsea_square"))
+        self.assertIn("20 vehicles", self.say("check", "copy.toml"))
+
+    def test_every_scenario_of_the_library_checks(self):
+        names = [line.strip() for line in self.say("list", "scenario").splitlines()[1:]]
+        self.assertGreaterEqual(len(names), 10)
+        self.assertEqual(self.say("check", *names).count("a scenario of"), len(names))
+
+    def test_check_says_what_files_hold(self):
+        self.write("plan.csv", "name,x_m,y_m\na,0,0\nb,9,0\n")
+        self.write("starts.csv", "name,x_m,y_m,heading_deg\na,0,0,90\nb,9,0,90\n")
+        text = self.say("check", "plan.csv", "starts.csv", "ok.toml")
+        self.assertIn("plan.csv: a plan, or starts, of 2 vehicles", text)
+        self.assertIn("starts.csv: starts of 2 vehicles", text)
+        self.assertIn("ok.toml: a scenario of 4 vehicles, rigid_registration", text)
+
+
+if __name__ == "__main__":
+    desk.main()
