@@ -87,9 +87,7 @@ class Sweep {
 
   std::string request(std::size_t index) {
     const analysis::SweepTask& task = open_.tasks().at(index);
-    analysis::CellScenario cell = scenarios_.of(task.trial->group, task.trial->cell);
-    cell.scenario.trial.seed = plan_.seed(*task.trial);
-    return analysis::trial_request(cell.scenario, open_.series());
+    return analysis::trial_request(scenarios_.of(*task.trial).scenario, open_.series());
   }
 
   /// False if the trial failed.

@@ -106,6 +106,12 @@ CellScenario CellScenarios::of(std::size_t group_index, std::size_t cell) {
   return made;
 }
 
+CellScenario CellScenarios::of(const PlannedTrial& trial) {
+  CellScenario made = of(trial.group, trial.cell);
+  made.scenario.trial.seed = plan_.seed(trial);
+  return made;
+}
+
 std::string trial_identity(const std::string& cell_identity, std::int64_t seed) {
   return hash_of(cell_identity + " " + std::to_string(seed) + " " + build_info().program);
 }

@@ -27,6 +27,9 @@ class CellScenarios {
   /// Throws InputError, naming the cell, if a base is missing or its scenario cannot be run.
   CellScenario of(std::size_t group, std::size_t cell);
 
+  /// The same with the seed of a trial.
+  CellScenario of(const PlannedTrial& trial);
+
  private:
   const Setting& base(const std::string& name, const Origin& origin);
   const std::string& content_hash(const FilePath& file);

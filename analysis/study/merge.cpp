@@ -133,7 +133,7 @@ Merged merge(const fs::path& folder, const std::vector<fs::path>& others) {
     }
     for (const char* name : {"claims.toml", "study.toml"}) {
       if (fs::exists(first / name))
-        write_whole_file(folder / name, read_whole_file(first / name).value_or(""));
+        write_whole_file(folder / name, read_whole_file(first / name).value());
     }
   }
 

@@ -78,8 +78,7 @@ class Crew {
   }
 
   TrialOutcome outcome_of(const SweepTask& task, CellScenarios& scenarios) const {
-    CellScenario cell = scenarios.of(task.trial->group, task.trial->cell);
-    cell.scenario.trial.seed = plan_.seed(*task.trial);
+    const CellScenario cell = scenarios.of(*task.trial);
     if (cell.one_at_a_time && settings_.jobs > 1 && !settings_.worker_program.empty()) {
       return trial_outcome_of_worker(settings_.worker_program, cell.scenario, sweep_.series());
     }
