@@ -88,7 +88,7 @@ class PythonCost final : public solvers::Objective {
   int dimension_;
 };
 
-/// Three points of a problem, with whoever the cost belongs to.
+/// A problem, and whoever its cost belongs to.
 struct HeldProblem {
   Problem problem;
   std::shared_ptr<const void> owner;  // a behaviour whose parts the cost uses
@@ -262,8 +262,10 @@ void add_problems(py::module_& module) {
              "The rigid motion, never a reflection, that lays points best onto their partners.\n"
              "Arrays (points, 2), metres. A dict: angle_rad, translation, cost, status, usable.");
   module.def(
-      "match", &matched, py::arg("points"), py::arg("slots"), py::arg("ownship_weight") = 1.0,
-      py::arg("delta_theta_deg") = 10.0, py::arg("solver") = "sampled",
+      "match", &matched, py::arg("points"), py::arg("slots"),
+      py::arg("ownship_weight") = solvers::MatchingProblem{}.ownship_weight,
+      py::arg("delta_theta_deg") = solvers::MatchingProblem{}.delta_theta_deg,
+      py::arg("solver") = "sampled",
       "Which slots points take, and how they are turned onto the plan; the own position first.\n"
       "Arrays (n, 2), metres. A dict: slots, rotation_rad, cost, usable.");
 }

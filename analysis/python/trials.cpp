@@ -1,8 +1,8 @@
-#include <limits>
 #include <optional>
 
 #include "conversions.hpp"
 #include "shoal/analysis/measures/formation_quality.hpp"
+#include "shoal/analysis/report/known_current.hpp"
 #include "shoal/analysis/report/run_report.hpp"
 #include "shoal/analysis/trial.hpp"
 #include "shoal/scenarios/toml_file.hpp"
@@ -35,25 +35,16 @@ std::string run(const py::object& scenario, const py::dict& changes, const std::
   return analysis::summary_json(trial, name);
 }
 
-double quality(const Array& positions, const formations::Plan& plan, const std::string& alignment,
-               double delta_theta_deg) {
-  using Alignment = scenarios::QualityOptions::Alignment;
-  if (alignment != "centroid" && alignment != "nearest_point") {
-    throw InputError("alignment is \"" + alignment + "\"; it is centroid or nearest_point");
-  }
-  if (!(delta_theta_deg > 0.0 && delta_theta_deg <= 360.0)) {
-    throw InputError("delta_theta_deg must be above 0 and at most 360");
-  }
+double quality(const Array& positions, const formations::Plan& plan, const py::kwargs& given) {
+  scenarios::QualityOptions options;
+  shoal::read(options, to_setting(given), "quality");
   const std::vector<Eigen::Vector2d> places = points(positions, "positions");
   if (places.empty()) throw InputError("there are no positions");
   if (places.size() > static_cast<std::size_t>(plan.size())) {
     throw InputError("there are " + std::to_string(places.size()) + " positions for " +
                      std::to_string(plan.size()) + " slots; pad the plan");
   }
-  return analysis::FormationQuality(
-             plan, alignment == "centroid" ? Alignment::centroid : Alignment::nearest_point,
-             delta_theta_deg)
-      .of(places);
+  return analysis::FormationQuality(plan, options.alignment, options.delta_theta_deg).of(places);
 }
 
 /// The current of a scenario at places, one after the other: none where it knows none.
@@ -61,18 +52,10 @@ py::tuple current(const py::object& scenario, double time_s, const Array& x, con
   const auto sea = read(scenario, {}).current.make();
   if (x.size() != y.size()) throw InputError("x and y must be equally many");
   const std::vector<py::ssize_t> shape(x.shape(), x.shape() + x.ndim());
+  const auto count = static_cast<std::size_t>(x.size());
   Array u(shape), v(shape);
-  for (py::ssize_t i = 0; i < x.size(); ++i) {
-    double velocity[2];
-    const double place[] = {x.data()[i], y.data()[i]};
-    try {
-      sea->sample(time_s, {place, 1}, {place + 1, 1}, {velocity, 1}, {velocity + 1, 1});
-    } catch (const InputError&) {
-      velocity[0] = velocity[1] = std::numeric_limits<double>::quiet_NaN();
-    }
-    u.mutable_data()[i] = velocity[0];
-    v.mutable_data()[i] = velocity[1];
-  }
+  analysis::sample_known(*sea, time_s, {x.data(), count}, {y.data(), count},
+                         {u.mutable_data(), count}, {v.mutable_data(), count});
   return py::make_tuple(u, v);
 }
 
@@ -91,12 +74,13 @@ void add_trials(py::module_& module) {
              py::arg("y"));
   module.def(
       "formation_quality", &quality, py::arg("positions"), py::arg("plan"),
-      py::arg("alignment") = "centroid", py::arg("delta_theta_deg") = 10.0,
       "Mean distance (m) between vehicles and the slots of a plan, assigned and laid onto them as\n"
       "well as a search over rotations finds: Rypkema 2015, sec. 4.3.\n\n"
       "positions: array (vehicles, 2), metres east and north. The plan needs as many slots, or "
       "more\n"
-      "(`Plan.padded`, as the measure `quality` of a run). Raises InputError.");
+      "(`Plan.padded`, as the measure `quality` of a run). Options: alignment and delta_theta_deg "
+      "of a\n"
+      "scenario's `quality`. Raises InputError.");
 }
 
 }  // namespace shoal::python

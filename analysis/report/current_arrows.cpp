@@ -2,12 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <nlohmann/json.hpp>
 #include <vector>
 
+#include "shoal/analysis/report/known_current.hpp"
 #include "shoal/analysis/report/packed.hpp"
-#include "shoal/core/error.hpp"
 
 namespace shoal::analysis {
 namespace {
@@ -32,22 +31,6 @@ struct Field {
   std::vector<double> x, y, u, v;
 };
 
-/// The field at one time; NaN where the current knows none.
-void sample(const scenarios::Current& current, double time_s, Field& field) {
-  try {
-    current.sample(time_s, field.x, field.y, field.u, field.v);
-  } catch (const InputError&) {
-    for (std::size_t k = 0; k < field.x.size(); ++k) {
-      const auto one = [k](std::vector<double>& of) { return std::span(of).subspan(k, 1); };
-      try {
-        current.sample(time_s, one(field.x), one(field.y), one(field.u), one(field.v));
-      } catch (const InputError&) {
-        field.u[k] = field.v[k] = std::numeric_limits<double>::quiet_NaN();
-      }
-    }
-  }
-}
-
 }  // namespace
 
 Json current_arrows(const scenarios::Current& current, const Region& region, double duration_s) {
@@ -70,7 +53,7 @@ Json current_arrows(const scenarios::Current& current, const Region& region, dou
   double fastest = 0.0;
   for (int k = 0; k < most_instants; ++k) {
     const double time_s = duration_s * k / (most_instants - 1);
-    sample(current, time_s, field);
+    sample_known(current, time_s, field.x, field.y, field.u, field.v);
     for (std::size_t p = 0; p < field.u.size(); ++p) {
       const double speed = std::hypot(field.u[p], field.v[p]);
       if (std::isfinite(speed)) fastest = std::max(fastest, speed);

@@ -105,7 +105,7 @@ void add_playback(const scenarios::Scenario& scenario, const RecordedRun& run, J
   data["end_s"] = times.back();  // a trial may end early
   data["time_s"] = packed_floats(times);
   data["tracks"] = packed_tracks(run, shown);
-  data["matches"] = packed_matches(run, shown, plan);
+  data["matches"] = packed_matches(run, shown, plan, scenario.quality);
   for (int r = 0; r < formations::reason_count; ++r) {
     data["reasons"].push_back(name_of(static_cast<formations::Reason>(r)));
   }

@@ -51,6 +51,42 @@ std::vector<double> energy_wh(const RecordedRun& run) {
   return sum;
 }
 
+std::vector<std::size_t> matched_instants(const ShownInstants& shown, std::size_t vehicles) {
+  const double one = std::pow(static_cast<double>(vehicles), 3.0);
+  const auto count =
+      std::clamp(static_cast<std::size_t>(most_match_work / one), std::size_t{1}, most_matches);
+  const std::size_t every = (shown.of_record.size() + count - 1) / count;
+  std::vector<std::size_t> instants;
+  for (std::size_t s = 0; s < shown.of_record.size(); s += every) {
+    instants.push_back(shown.of_record[s]);
+  }
+  if (instants.back() != shown.of_record.back()) instants.push_back(shown.of_record.back());
+  return instants;
+}
+
+/// Of each vehicle at one instant.
+std::vector<std::uint16_t> slots_at(const RecordedRun& run, std::size_t instant,
+                                    FormationQuality& quality) {
+  const std::vector<double>& x = run.column("x");
+  const std::vector<double>& y = run.column("y");
+  std::vector<Eigen::Vector2d> places;
+  std::vector<std::size_t> left;
+  for (std::size_t i = 0; i < run.vehicles; ++i) {
+    const std::size_t at = i * run.time_s.size() + instant;
+    const Eigen::Vector2d place(x[at], y[at]);
+    if (!place.allFinite()) continue;
+    places.push_back(place);
+    left.push_back(i);
+  }
+  std::vector<std::uint16_t> slots(run.vehicles, std::numeric_limits<std::uint16_t>::max());
+  if (places.empty()) return slots;
+  quality.of(places);
+  for (std::size_t p = 0; p < left.size(); ++p) {
+    slots[left[p]] = static_cast<std::uint16_t>(quality.slot_of_position()[p]);
+  }
+  return slots;
+}
+
 }  // namespace
 
 ShownInstants::ShownInstants(const RecordedRun& run) {
@@ -73,38 +109,13 @@ Json packed_tracks(const RecordedRun& run, const ShownInstants& shown) {
 }
 
 Json packed_matches(const RecordedRun& run, const ShownInstants& shown,
-                    const formations::Plan& plan) {
-  constexpr std::uint16_t none = std::numeric_limits<std::uint16_t>::max();
-  const double one = std::pow(static_cast<double>(run.vehicles), 3.0);
-  const auto count =
-      std::clamp(static_cast<std::size_t>(most_match_work / one), std::size_t{1}, most_matches);
-  const std::size_t every = (shown.of_record.size() + count - 1) / count;
-  const std::vector<double>& x = run.column("x");
-  const std::vector<double>& y = run.column("y");
-
-  FormationQuality quality(plan, scenarios::QualityOptions::Alignment::centroid, 10.0);
+                    const formations::Plan& plan, const scenarios::QualityOptions& options) {
+  FormationQuality quality(plan, options.alignment, options.delta_theta_deg);
   std::vector<double> times;
   std::vector<std::uint16_t> slots;
-  std::vector<Eigen::Vector2d> places;
-  std::vector<std::size_t> left;
-  for (std::size_t s = 0; s < shown.of_record.size(); s += every) {
-    const std::size_t k = shown.of_record[s];
-    places.clear();
-    left.clear();
-    for (std::size_t i = 0; i < run.vehicles; ++i) {
-      const Eigen::Vector2d place(x[i * run.time_s.size() + k], y[i * run.time_s.size() + k]);
-      if (!place.allFinite()) continue;
-      places.push_back(place);
-      left.push_back(i);
-    }
-    std::vector<std::uint16_t> row(run.vehicles, none);
-    if (!places.empty()) {
-      quality.of(places);
-      for (std::size_t p = 0; p < left.size(); ++p) {
-        row[left[p]] = static_cast<std::uint16_t>(quality.slot_of_position()[p]);
-      }
-    }
-    times.push_back(run.time_s[k]);
+  for (const std::size_t instant : matched_instants(shown, run.vehicles)) {
+    const std::vector<std::uint16_t> row = slots_at(run, instant, quality);
+    times.push_back(run.time_s[instant]);
     slots.insert(slots.end(), row.begin(), row.end());
   }
   return {{"time_s", packed_floats(times)}, {"slots", packed_indices(slots)}};
