@@ -173,6 +173,30 @@ class Potentials(Desk):
         self.assertEqual(first, same)
         self.assertNotEqual(first["python"]["source"], other["python"]["source"])
 
+    def test_so_is_one_that_uses_something_else(self):
+        def made(helper, table):
+            def law(r, s):
+                return helper(r - s) + table[-500] * r
+            return shoal.potential(law)._setting_()["python"]["source"]
+
+        table = numpy.zeros(2000)
+        changed = table.copy()
+        changed[-500] = 1.0  # numpy's text of both is the same
+        sources = [made(lambda d: d**2, table), made(lambda d: d**4, table),
+                   made(lambda d: d**2, changed)]
+        self.assertEqual(len(set(sources)), 3)
+        self.assertEqual(made(lambda d: d**2, table.copy()), sources[0])
+        lock = threading.Lock()
+        with self.assertRaisesRegex(shoal.InputError, "give a version"):
+            made(lambda d: d if lock else 2 * d, table)
+
+    def test_the_hash_is_the_same_in_another_process(self):
+        program = ("import shoal\ndef helper(d): return d**2\ndef law(r, s): return helper(r - s)\n"
+                   "print(shoal.potential(law)._setting_())")
+        said = {subprocess.run([sys.executable, "-c", program], capture_output=True, text=True,
+                               check=True).stdout for _ in range(2)}
+        self.assertEqual(len(said), 1)
+
 
 class Planning(Desk):
     def setUp(self):
@@ -222,6 +246,14 @@ class Planning(Desk):
                                             {"x_m": 900, "y_m": 900, "radius_m": 10}}])
         planner.plan(1.0, shoal.OwnState([0, 0], velocity=[1, 0], speed_m_s=1.0))
         self.assertGreater(planner.force[0], 0)
+        # The same world turned by a quarter has the same force, turned by a quarter.
+        turned = shoal.Planner(self.plan, "virtual_potential", "anna",
+                               {"waypoint_x_m": 0, "waypoint_y_m": 300},
+                               obstacles=[{"shape.kind": "circle", "shape.circle":
+                                           {"x_m": -900, "y_m": 900, "radius_m": 10}}])
+        turned.plan(1.0, shoal.OwnState([0, 0], velocity=[0, 1], heading_rad=math.pi / 2, speed_m_s=1.0))
+        east, north = planner.force
+        numpy.testing.assert_allclose(turned.force, [-north, east], atol=1e-12)
 
     def test_what_is_wrong_is_told(self):
         with self.assertRaisesRegex(shoal.InputError, "anna, bela and cyra"):
@@ -247,7 +279,8 @@ class Problems(Desk):
                 self.assertIn(solver, str(error))
                 continue
             self.assertTrue(solution.usable, solver)
-            numpy.testing.assert_allclose(solution.x, [1, -2], atol=2e-2, err_msg=solver)
+            # Ten of the steps at which solvers stop.
+            numpy.testing.assert_allclose(solution.x, [1, -2], atol=1e-3, err_msg=solver)
             solved += 1
         self.assertGreater(solved, 15)
 

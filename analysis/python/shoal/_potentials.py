@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import hashlib
+import pickle
+import types
 from typing import Any, Callable
 
 import numpy
@@ -37,7 +39,7 @@ class Potential:
 
 
 def potential(law: str | Law, *, slope: Law | None = None, curvature: Law | None = None,
-              batch: bool = False, from_m: float = 0.1, to_m: float = 10000.0,
+              batch: bool = False, from_m: float | None = None, to_m: float | None = None,
               version: str | None = None, **options: Any) -> Potential:
     """A pair potential.
 
@@ -46,12 +48,13 @@ def potential(law: str | Law, *, slope: Law | None = None, curvature: Law | None
 
     Of a function, slope and curvature are exact by themselves if it is written with operators and
     numpy's functions; else give them as functions, too. With `batch`, it takes arrays: it is then
-    asked once, at many distances between from_m and to_m, and a run goes by the table that comes of
-    it, as fast as one in C++ and without holding up Python's threads; a function too rough for that
-    is refused. Without, it is called by every solver at every step.
+    asked once, at many distances between from_m and to_m (options("potential", "python") tells their
+    defaults), and a run goes by the table that comes of it, as fast as one in C++ and without holding up
+    Python's threads; a function too rough for that is refused. Without, it is called by every solver at
+    every step.
 
-    A scenario remembers a function by its name and a hash of its code; version replaces the hash, for
-    what has no code of its own. Raises InputError.
+    A scenario remembers a function by its name and a hash of its code, and of what that uses; version
+    replaces the hash, where there is no code or something used cannot be told apart. Raises InputError.
     """
     if isinstance(law, str):
         return Potential(law, options)
@@ -62,8 +65,8 @@ def potential(law: str | Law, *, slope: Law | None = None, curvature: Law | None
     parts = [law] + [part for part in (slope, curvature) if part is not None]
     source = version or hashlib.sha256(b"|".join(map(_code, parts))).hexdigest()[:16]
     _shoal.keep_function(name, source, answer)
-    return Potential("python", {"name": name, "source": source, "batch": batch,
-                                "from_m": from_m, "to_m": to_m})
+    limits = {key: limit for key, limit in (("from_m", from_m), ("to_m", to_m)) if limit is not None}
+    return Potential("python", {"name": name, "source": source, "batch": batch, **limits})
 
 
 def _differentiated(law: Law, slope: Law | None, curvature: Law | None, name: str):
@@ -88,16 +91,41 @@ def _differentiated(law: Law, slope: Law | None, curvature: Law | None, name: st
     return exact
 
 
-def _code(function: Any) -> bytes:
-    """What a function does, as bytes."""
+def _code(function: Any, known: frozenset[int] = frozenset()) -> bytes:
+    """What a function does, as bytes: its code, and what it uses from outside."""
     code = getattr(function, "__code__", None)
     if code is None:
         raise _shoal.InputError(f"{function!r} has no code that tells its versions apart; give one: "
                                 "version=\"1\"")
-    cells = [repr(cell.cell_contents) for cell in function.__closure__ or ()]
-    globals_used = [f"{name}={function.__globals__[name]!r}" for name in code.co_names
-                    if isinstance(function.__globals__.get(name), (int, float, str))]
-    inner = [repr(part) if not hasattr(part, "co_code") else part.co_code.hex()
-             for part in code.co_consts]
-    return repr((code.co_code.hex(), inner, code.co_names, function.__defaults__, cells,
-                 globals_used)).encode()
+    known |= {id(function)}
+    cells = [cell.cell_contents for cell in function.__closure__ or ()]
+    used = [function.__globals__[name] for name in _names(code) if name in function.__globals__]
+    outside = [_content(value, known)
+               for value in [*cells, *used, function.__defaults__, function.__kwdefaults__]]
+    return repr((_instructions(code), outside)).encode()
+
+
+def _names(code: types.CodeType) -> list[str]:
+    """Names that code looks up, also that inside it."""
+    inner = [name for part in code.co_consts if isinstance(part, types.CodeType) for name in _names(part)]
+    return [*code.co_names, *inner]
+
+
+def _instructions(code: types.CodeType) -> tuple:
+    return (code.co_code, code.co_names,
+            [_instructions(part) if isinstance(part, types.CodeType) else repr(part)
+             for part in code.co_consts])
+
+
+def _content(value: Any, known: frozenset[int]) -> bytes:
+    if id(value) in known:  # a function that calls itself
+        return b"itself"
+    if isinstance(value, types.ModuleType):
+        return value.__name__.encode()
+    if isinstance(value, types.FunctionType):
+        return _code(value, known)
+    try:
+        return pickle.dumps(value)
+    except Exception as error:
+        raise _shoal.InputError(f"what the function uses, {value!r}, cannot be told from other versions "
+                                "of it; give a version: version=\"1\"") from error

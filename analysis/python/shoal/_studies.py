@@ -15,8 +15,6 @@ if TYPE_CHECKING:
     import pandas
     import xarray
 
-Folder = "str | os.PathLike[str]"
-
 
 def folder_of(study: Any, out: str | os.PathLike[str] | None) -> str:
     """Where the trials of a study go, as `shoal sweep` has it."""

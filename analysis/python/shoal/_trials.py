@@ -13,8 +13,6 @@ from . import _shoal
 if TYPE_CHECKING:
     import xarray
 
-Scenario = "str | os.PathLike[str] | Mapping[str, Any]"
-
 
 class Run(NamedTuple):
     """What a trial leaves: `dataset, measures = shoal.run(...)`."""
