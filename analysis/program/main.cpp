@@ -90,20 +90,21 @@ int main(int argc, char** argv) {
       app.add_subcommand("sweep", "Run the trials of a study that are not stored yet");
   sweep_command->add_option("study", sweep.study, "a study file, or the name of one that ships")
       ->required();
-  sweep_command
-      ->add_option("--jobs", sweep.jobs, "trials at a time; the numbers do not depend on it")
-      ->check(CLI::Range(1, 1024))
-      ->capture_default_str();
+  CLI::Option* jobs = sweep_command->add_option(
+      "--jobs", sweep.jobs, "trials at a time; the numbers do not depend on it");
+  jobs->check(CLI::Range(1, 1024))->capture_default_str();
   sweep_command->add_option("--out", sweep.out, "folder of the trials; default: out/STUDY")
       ->check(names_a_folder);
   sweep_command->add_option("--shard", sweep.shard,
                             "I/N: only the I-th of N parts; see shoal merge");
   sweep_command->add_option("--replications", sweep.replications, "instead of those of the study")
       ->check(CLI::Range(1, 1000000000));
-  sweep_command->add_option(
+  CLI::Option* dask = sweep_command->add_option(
       "--dask", sweep.dask,
       "ADDRESS of a scheduler of dask.distributed: its workers run the trials");
+  dask->excludes(jobs);
   sweep_command->add_option("--batch", sweep.batch, "with --dask: trials of a task")
+      ->needs(dask)
       ->check(CLI::Range(1, 100000))
       ->capture_default_str();
   sweep_command->add_flag("--fail-fast", sweep.fail_fast,

@@ -131,12 +131,40 @@ class Distributed(StudyDesk):
         with self.assertRaisesRegex(shoal.InputError, "install the same shoal on all machines"):
             shoal.distributed.sweep(self.desk / "study.toml", client, self.desk / "out")
 
+    def test_a_scheduler_that_is_lost_is_told_and_the_sweep_goes_on_elsewhere(self):
+        self.write("study.toml", LONG)
+        cluster, client = self.cluster(1)
+
+        def kill(counts):
+            if counts["done"] == 2:
+                cluster.processes[0].kill()
+
+        with self.assertRaisesRegex(shoal.SystemError, "the scheduler of dask is lost.*sweep again"):
+            shoal.distributed.sweep(self.desk / "study.toml", client, self.desk / "out", progress=kill)
+        stored = len(self.rows("trial_key"))
+        self.assertGreaterEqual(stored, 2)
+        said = self.sweep()
+        self.assertIn(f"24 of 24 trials are stored, {24 - stored} of them run now", said)
+
+    def test_workers_that_die_of_a_trial_are_told(self):
+        self.write("study.toml", SHORT)
+        cluster, client = self.cluster(1)
+        client.run_on_scheduler(_allow_no_failure)
+        client.run(_die_of_trials)
+        cluster.start_worker()
+        with self.assertRaisesRegex(shoal.SystemError, "dies of a trial.*sweep again"):
+            shoal.distributed.sweep(self.desk / "study.toml", client, self.desk / "out")
+
     def test_what_cannot_be_reached_is_told(self):
         done = self.shoal("sweep", "study.toml", "--dask", "tcp://127.0.0.1:1", "--out", "out")
         self.assert_complains(done, 1, ["no scheduler of dask answers at tcp://127.0.0.1:1",
                                         "start dask-scheduler"])
         done = self.shoal("sweep", "study.toml", "--dask", "here", "--shard", "1/2")
         self.assert_complains(done, 2, ["--dask takes neither --shard"])
+        done = self.shoal("sweep", "study.toml", "--dask", "here", "--jobs", "2")
+        self.assert_complains(done, 2, ["--jobs excludes --dask"])
+        done = self.shoal("sweep", "study.toml", "--batch", "2")
+        self.assert_complains(done, 2, ["--batch requires --dask"])
 
     def test_the_overhead_of_a_task_is_printed(self):
         tiny = ('scenario = "construction_square"\nreplications = 300\n'
@@ -159,6 +187,16 @@ def _pretend_to_be_another():
 
     answer = _shoal.answer
     _shoal.answer = lambda request: answer(request.replace(_shoal.program, "0.0.0-another"))
+
+
+def _die_of_trials():
+    from shoal import _shoal
+
+    _shoal.answer = lambda request: os.kill(os.getpid(), signal.SIGKILL)
+
+
+def _allow_no_failure(dask_scheduler):
+    dask_scheduler.allowed_failures = 0
 
 
 if __name__ == "__main__":

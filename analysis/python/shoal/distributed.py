@@ -17,6 +17,7 @@ loses the trials it was running, which others then run; one that joins late gets
 from __future__ import annotations
 
 import argparse
+import logging
 import os
 import sys
 import time
@@ -34,6 +35,7 @@ if TYPE_CHECKING:
 # Tasks under way for each thread of the workers: enough that none waits for the next, few enough that
 # a late worker finds some left.
 TASKS_A_THREAD = 4
+AGAIN = "; what was run is stored: sweep again to go on"
 
 
 def sweep(study: str | os.PathLike[str] | Mapping[str, Any], client: Client,
@@ -45,7 +47,7 @@ def sweep(study: str | os.PathLike[str] | Mapping[str, Any], client: Client,
 
     batch: trials of a task; more than one pays for trials shorter than some 50 ms. The other arguments
     are those of shoal.sweep(). Interrupted or cut off, it goes on where it was when called again.
-    Raises InputError, SystemError, and what dask raises if workers keep dying.
+    Raises InputError, and SystemError also if the scheduler is lost or workers keep dying.
     """
     if batch < 1:
         raise _shoal.InputError(f"batch is {batch}; give at least 1")
@@ -62,6 +64,7 @@ def run(open_sweep: _shoal.OpenSweep, client: Client, batch: int,
         progress: Callable[[dict[str, Any]], None] | None) -> None:
     """Has the trials of an open sweep run, and stores them."""
     from distributed import as_completed
+    from distributed.scheduler import KilledWorker
 
     threads = _Threads(client)
     name = f"shoal-{uuid.uuid4().hex[:8]}"
@@ -83,7 +86,13 @@ def run(open_sweep: _shoal.OpenSweep, client: Client, batch: int,
         while first < len(open_sweep) or batches:
             while first < len(open_sweep) and len(batches) < TASKS_A_THREAD * threads.now():
                 done.add(submit())
-            future, found = next(done)
+            try:
+                future, found = next(done)  # raises what a task raised
+            except KilledWorker as error:
+                raise _shoal.SystemError(f"one worker after the other dies of a trial ({error})"
+                                         + AGAIN) from error
+            if future.status != "finished":  # all are cancelled with the scheduler
+                raise _shoal.SystemError("the scheduler of dask is lost" + AGAIN)
             for index, answer in zip(batches.pop(future.key), found):
                 open_sweep.store(index, answer)
             if progress is not None:
@@ -126,6 +135,7 @@ def _main() -> int:
         import distributed
     except ImportError:
         return _complain("sweeps on many machines need dask.distributed; install python3-distributed", 1)
+    logging.disable()  # of dask's many parts: what matters comes back as an error
     try:
         client = distributed.Client(wanted.address, timeout=20)
     except (OSError, ValueError, TimeoutError) as error:
@@ -151,6 +161,8 @@ def _main() -> int:
         return _complain(error, 2)
     except _shoal.SystemError as error:
         return _complain(error, 1)
+    except KeyboardInterrupt:
+        return _complain("interrupted" + AGAIN, 1)
     if shown:
         print("\r\033[K", end="", file=sys.stderr)
     folder = folder_of(wanted.study, wanted.out)
