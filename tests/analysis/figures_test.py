@@ -6,6 +6,7 @@
 import pathlib
 import shutil
 import subprocess
+import sys
 
 import desk
 from desk import Desk
@@ -81,6 +82,28 @@ class Figures(Desk):
         self.assertEqual(done.returncode, 0, done.stderr)
         page = (self.desk / "out" / "report.html").read_text()
         self.assertEqual(page.count("data:image/svg+xml;base64,"), 3)
+
+    def test_a_curve_has_the_numbers_of_its_table(self):
+        sys.path.insert(0, str(pathlib.Path(__file__).parents[2] / "analysis" / "figures"))
+        import matplotlib
+        matplotlib.use("Agg")
+        import of_study
+        from stored_study import StudyTable
+
+        rows = [{"group": g, "period_s": p, "square_energy_mean_wh": v, "square_energy_mean_wh_low": low,
+                 "square_energy_mean_wh_high": high, "square_energy_mean_wh_n": "3"}
+                for g, p, v, low, high in (("a", "30", "5", "4", "7"), ("a", "5", "2", "1", "3"),
+                                           ("a", "10", "3", "2", "4"), ("b", "5", "8", "8", "8"))]
+        table = StudyTable("t", "", rows)
+        self.assertEqual((table.labels, table.numbers), (["group", "period_s"], ["square_energy_mean_wh"]))
+        axes, = of_study.figure_of(table, {"metrics": ["energy_mean_wh"]}).axes
+        self.assertEqual((axes.get_xlabel(), axes.get_ylabel()), ("Period (s)", "Energy mean (Wh)"))
+        curve, other = axes.lines
+        self.assertEqual((curve.get_label(), other.get_label()), ("a, square", "b, square"))
+        self.assertEqual(curve.get_xydata().tolist(), [[5, 2], [10, 3], [30, 5]])
+        band = axes.collections[0].get_paths()[0].vertices
+        self.assertEqual({tuple(corner) for corner in band.tolist()} - {(5, 2)},
+                         {(5, 1), (10, 2), (30, 4), (30, 7), (10, 4), (5, 3)})
 
     def test_indices_of_a_sensitivity(self):
         self.write("study.toml", """scenario = "construction_square"

@@ -5,6 +5,7 @@
 
 import base64
 import json
+import pathlib
 import re
 
 import desk
@@ -110,6 +111,14 @@ class Report(Desk):
             x, y = numpy.array(outline).T
             area = 0.5 * numpy.sum(x * numpy.roll(y, -1) - numpy.roll(x, -1) * y)
             self.assertGreater(area, 0)
+
+    def test_vehicles_have_the_colours_of_the_figures(self):
+        top = pathlib.Path(__file__).parents[2] / "analysis"
+        lists = [re.findall(r'"(#\w{6}|ink)"', re.search(r"COLOURS = \[(.*?)\]", file.read_text()).group(1))
+                 for file in (top / "figures" / "style.py", top / "report" / "page" / "layers.js")]
+        self.assertEqual(len(lists[0]), 7)
+        # Black is the ink of the page, which is light on dark.
+        self.assertEqual([colour.replace("#000000", "ink") for colour in lists[0]], lists[1])
 
     def test_names_cannot_break_the_page(self):
         self.write("a<script>&.toml", desk.SMALL)
