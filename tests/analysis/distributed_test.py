@@ -1,7 +1,7 @@
 """Sweeps by dask.distributed: a scheduler and workers as processes of their own, one of which is
 killed and one of which comes late; the same tables, byte for byte.
 
-    PYTHONPATH=build/ci/python python3 distributed_test.py SHOAL
+    PYTHONPATH=$PWD/build/ci/python python3 distributed_test.py SHOAL        (workers start elsewhere)
 """
 
 import os
