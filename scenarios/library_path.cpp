@@ -19,6 +19,18 @@ fs::path own_folder() {
   return fs::canonical(info.dli_fname).parent_path();
 }
 
+constexpr const char* sets_folder = "sets";
+
+/// Of the TOML files in a folder, sorted.
+std::vector<std::string> names_in(const fs::path& folder) {
+  std::vector<std::string> names;
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
+    if (entry.path().extension() == ".toml") names.push_back(entry.path().stem().string());
+  }
+  std::ranges::sort(names);
+  return names;
+}
+
 }  // namespace
 
 fs::path library_path() {
@@ -58,12 +70,17 @@ fs::path resolved(const FilePath& file) {
 }
 
 std::vector<std::string> library_scenarios() {
-  std::vector<std::string> names;
-  for (const fs::directory_entry& entry : fs::directory_iterator(library_path())) {
-    if (entry.path().extension() == ".toml") names.push_back(entry.path().stem().string());
-  }
-  std::ranges::sort(names);
-  return names;
+  return names_in(library_path());
+}
+
+std::vector<std::string> library_sets() {
+  const fs::path folder = library_path() / sets_folder;
+  std::error_code ignored;  // a library of one's own may have none
+  return fs::is_directory(folder, ignored) ? names_in(folder) : std::vector<std::string>{};
+}
+
+fs::path set_file(const std::string& name) {
+  return library_path() / sets_folder / (name + ".toml");
 }
 
 }  // namespace shoal::scenarios

@@ -18,4 +18,10 @@ std::filesystem::path resolved(const FilePath& file);
 /// Names of the scenarios in the library, sorted.
 std::vector<std::string> library_scenarios();
 
+/// Names of the sets of settings that ship for scenarios to inherit, sorted.
+std::vector<std::string> library_sets();
+
+/// The file of a set that ships.
+std::filesystem::path set_file(const std::string& name);
+
 }  // namespace shoal::scenarios

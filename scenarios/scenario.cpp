@@ -1,9 +1,11 @@
 #include "shoal/scenarios/scenario.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "shoal/core/text.hpp"
 #include "shoal/scenarios/currents/netcdf_time.hpp"
+#include "shoal/scenarios/inheritance.hpp"
 #include "shoal/scenarios/library_path.hpp"
 
 namespace shoal::scenarios {
@@ -202,6 +204,17 @@ class CrossChecks {
   const Setting& root_;
 };
 
+/// `inherits` is no option of a scenario, but what somebody may have meant.
+void require_known_names(const Setting& root) {
+  std::vector<std::string> known = schema_of<Scenario>().names();
+  known.emplace_back(inherits_key);
+  for (const auto& [name, value] : root.table()) {
+    if (std::ranges::find(known, name) != known.end()) continue;
+    throw InputError(value.origin,
+                     "a scenario has no option \"" + name + '"' + suggestion(name, known));
+  }
+}
+
 }  // namespace
 
 Scenario read_scenario(const Setting& root) {
@@ -209,9 +222,12 @@ Scenario read_scenario(const Setting& root) {
     throw InputError(root.origin,
                      "the scenario says nothing; it takes tables such as [plan] and [behaviour]");
   }
+  TomlFiles files;
+  const Setting settings = with_inherited(root, files).settings;
+  require_known_names(settings);
   Scenario scenario;
-  read(scenario, root, "");
-  CrossChecks(scenario, root).run();
+  read(scenario, settings, "");
+  CrossChecks(scenario, settings).run();
   return scenario;
 }
 

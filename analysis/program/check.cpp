@@ -9,6 +9,7 @@
 #include "shoal/core/text.hpp"
 #include "shoal/formations/csv_table.hpp"
 #include "shoal/scenarios/currents/netcdf_report.hpp"
+#include "shoal/scenarios/inheritance.hpp"
 #include "shoal/scenarios/library_path.hpp"
 #include "shoal/scenarios/scenario.hpp"
 #include "shoal/scenarios/toml_file.hpp"
@@ -20,11 +21,14 @@ namespace {
 namespace fs = std::filesystem;
 
 void check_scenario(const fs::path& file) {
-  const scenarios::Scenario scenario = scenarios::read_scenario(scenarios::read_toml(file));
+  scenarios::TomlFiles files;
+  const scenarios::Inheritance whole = scenarios::with_inherited(scenarios::read_toml(file), files);
+  const scenarios::Scenario scenario = scenarios::read_scenario(whole.settings);
   const scenarios::World world(scenario);  // opens and checks all that it names
   fmt::print("{}: a scenario of {} vehicles, {}, plan {}, current {}, {:g} s\n", file.string(),
              world.size(), scenario.behaviour.kind(), scenario.plan.kind(), scenario.current.kind(),
              scenario.trial.duration_s);
+  for (const fs::path& inherited : whole.files) fmt::print("  inherits {}\n", inherited.string());
 }
 
 /// Everything that a sweep would refuse before its trials, and the world of a cell of each group.
@@ -60,16 +64,20 @@ void check_toml(const fs::path& file) {
   study ? check_study(file) : check_scenario(file);
 }
 
-/// A file, or the scenario or study of that name that ships.
+/// A file, or the scenario, study or set of that name that ships.
 fs::path named(const std::string& name) {
   if (fs::exists(name)) return name;
   std::vector<std::string> known = scenarios::library_scenarios();
   const std::vector<std::string> studies = analysis::library_studies();
+  const std::vector<std::string> sets = scenarios::library_sets();
   if (std::ranges::find(known, name) != known.end()) return scenarios::find_scenario(name);
   if (std::ranges::find(studies, name) != studies.end()) return analysis::find_study(name);
+  if (std::ranges::find(sets, name) != sets.end()) return scenarios::set_file(name);
   known.insert(known.end(), studies.begin(), studies.end());
+  known.insert(known.end(), sets.begin(), sets.end());
   throw InputError("there is no file \"" + name +
-                   "\", and no scenario or study of that name ships" + suggestion(name, known));
+                   "\", and no scenario, study or set of that name ships" +
+                   suggestion(name, known));
 }
 
 void check_csv(const fs::path& file) {

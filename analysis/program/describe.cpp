@@ -6,6 +6,8 @@
 #include "shoal/analysis/measure.hpp"
 #include "shoal/core/option_place.hpp"
 #include "shoal/core/text.hpp"
+#include "shoal/core/whole_file.hpp"
+#include "shoal/scenarios/inheritance.hpp"
 #include "shoal/scenarios/library_path.hpp"
 #include "shoal/scenarios/scenario.hpp"
 #include "shoal/scenarios/toml_file.hpp"
@@ -112,6 +114,29 @@ bool describe_scenario(const std::string& name, std::vector<std::string>& known)
   return true;
 }
 
+/// As it was written: its comments say where each value comes from.
+bool describe_set(const std::string& name, std::vector<std::string>& known) {
+  const std::vector<std::string> names = scenarios::library_sets();
+  known.insert(known.end(), names.begin(), names.end());
+  if (std::ranges::find(names, name) == names.end()) return false;
+  fmt::print("{}", read_whole_file(scenarios::set_file(name)).value());
+  return true;
+}
+
+bool describe_inherits(const std::string& name, std::vector<std::string>& known) {
+  known.emplace_back(scenarios::inherits_key);
+  if (name != scenarios::inherits_key) return false;
+  fmt::print(
+      "{}\n    whose settings hold where the scenario says nothing; later ones before earlier "
+      "ones\n"
+      "    takes the name of a set or scenario, a file, or a list of these; sets are\n",
+      name);
+  for (const std::string& set : scenarios::library_sets()) {
+    fmt::print("      {:<26} {}\n", set, scenarios::set_summary(set));
+  }
+  return true;
+}
+
 }  // namespace
 
 void describe(const std::string& name) {
@@ -123,6 +148,8 @@ void describe(const std::string& name) {
   found |= describe_members(name, known);
   found |= describe_quantities(name, known);
   found = found || describe_scenario(name, known);
+  found = found || describe_set(name, known);
+  found = found || describe_inherits(name, known);
   if (found) return;
   // What begins like a key is one that is wrong, unless members are called like that.
   const bool begins_a_member = std::ranges::any_of(

@@ -5,6 +5,7 @@
 #include "shoal/analysis/study/study.hpp"
 #include "shoal/core/registry.hpp"
 #include "shoal/core/text.hpp"
+#include "shoal/scenarios/inheritance.hpp"
 #include "shoal/scenarios/library_path.hpp"
 #include "shoal/scenarios/toml_file.hpp"
 
@@ -14,6 +15,13 @@ namespace {
 void list_scenarios() {
   fmt::print("scenario: an experiment to run\n");
   for (const std::string& name : scenarios::library_scenarios()) fmt::print("  {}\n", name);
+}
+
+void list_sets() {
+  fmt::print("set: settings that a scenario inherits, or takes by --set inherits=NAME\n");
+  for (const std::string& name : scenarios::library_sets()) {
+    fmt::print("  {:<26} {}\n", name, scenarios::set_summary(name));
+  }
 }
 
 void list_quantities(const std::vector<analysis::Quantity>& quantities, const char* what) {
@@ -73,6 +81,7 @@ void list(const std::string& wanted) {
     measures ? list_measures(*family) : list_family(*family);
   }
   if (asked_for("scenario")) list_scenarios();
+  if (asked_for("set")) list_sets();
   if (asked_for("study")) list_studies();
   if (!found) throw InputError("there is no family \"" + wanted + '"' + suggestion(wanted, known));
 }

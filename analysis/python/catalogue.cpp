@@ -2,6 +2,7 @@
 #include "shoal/analysis/measure.hpp"
 #include "shoal/analysis/study/study.hpp"
 #include "shoal/core/option_place.hpp"
+#include "shoal/scenarios/inheritance.hpp"
 #include "shoal/scenarios/library_path.hpp"
 #include "shoal/scenarios/scenario.hpp"
 
@@ -65,6 +66,13 @@ void add_catalogue(py::module_& module) {
   });
   module.def("options", &options_of, py::arg("family"), py::arg("name"));
   module.def("scenarios", &scenarios::library_scenarios);
+  module.def("sets", [] {
+    py::dict all;
+    for (const std::string& name : scenarios::library_sets()) {
+      all[py::str(name)] = scenarios::set_summary(name);
+    }
+    return all;
+  });
   module.def("studies", &analysis::library_studies);
   module.def("measures", [] { return quantities(analysis::known_values()); });
   module.def("series", [] { return quantities(analysis::known_series()); });

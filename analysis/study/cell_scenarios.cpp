@@ -8,7 +8,6 @@
 #include "shoal/analysis/build_info.hpp"
 #include "shoal/core/option_place.hpp"
 #include "shoal/scenarios/library_path.hpp"
-#include "shoal/scenarios/toml_file.hpp"
 #include "shoal/solvers/registration/registration.hpp"
 #include "shoal/solvers/solver.hpp"
 
@@ -48,13 +47,6 @@ fs::path base_scenario(const std::string& name, const Origin& origin) {
   }
 }
 
-const Setting& CellScenarios::base(const std::string& name, const Origin& origin) {
-  const fs::path file = base_scenario(name, origin);
-  const auto known = bases_.find(file.string());
-  if (known != bases_.end()) return known->second;
-  return bases_.emplace(file.string(), scenarios::read_toml(file)).first->second;
-}
-
 const std::string& CellScenarios::content_hash(const FilePath& file) {
   const fs::path path = scenarios::resolved(file);
   const auto known = content_hashes_.find(path.string());
@@ -75,10 +67,11 @@ CellScenario CellScenarios::of(std::size_t group_index, std::size_t cell) {
   }
   CellScenario made;
   try {
-    Setting root = base(name, origin);
+    Setting root = files_.at(base_scenario(name, origin));
     overlay(root, plan_.study().set);
     overlay(root, group.set);
     for (const Axis::Place& change : changes) overlay(root, change.set);
+    root = scenarios::with_inherited(std::move(root), files_).settings;
     made.scenario = scenarios::read_scenario(root);
   } catch (const InputError& error) {
     const std::string title = planned.title(cell);

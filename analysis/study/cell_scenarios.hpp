@@ -5,6 +5,7 @@
 #include <string>
 
 #include "shoal/analysis/study/plan.hpp"
+#include "shoal/scenarios/inheritance.hpp"
 #include "shoal/scenarios/scenario.hpp"
 
 namespace shoal::analysis {
@@ -31,11 +32,10 @@ class CellScenarios {
   CellScenario of(const PlannedTrial& trial);
 
  private:
-  const Setting& base(const std::string& name, const Origin& origin);
   const std::string& content_hash(const FilePath& file);
 
   const StudyPlan& plan_;
-  std::map<std::string, Setting> bases_;
+  scenarios::TomlFiles files_;  // of one state: nobody changes a sweep by an edit in mid-way
   std::map<std::string, std::string> content_hashes_;
 };
 

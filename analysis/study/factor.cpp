@@ -6,6 +6,7 @@
 
 #include "shoal/core/option_place.hpp"
 #include "shoal/core/text.hpp"
+#include "shoal/scenarios/inheritance.hpp"
 #include "shoal/scenarios/scenario.hpp"
 
 namespace shoal::analysis {
@@ -75,7 +76,7 @@ Axis::Axis(const Factor& factor)
   if (!factor.levels.empty()) {
     for (const Level& level : factor.levels)
       places_.push_back({level.label, level.scenario, level.set});
-  } else if (key_ == "scenario") {
+  } else if (key_ == "scenario" || key_ == scenarios::inherits_key) {
     take_values(factor);
   } else {
     const OptionPlace place = locate(schema_of<scenarios::Scenario>(), key_, factor.origin);

@@ -4,6 +4,7 @@
 #include "shoal/core/option_place.hpp"
 #include "shoal/core/text.hpp"
 #include "shoal/core/whole_file.hpp"
+#include "shoal/scenarios/inheritance.hpp"
 #include "shoal/scenarios/library_path.hpp"
 #include "shoal/scenarios/scenario.hpp"
 #include "shoal/scenarios/toml_file.hpp"
@@ -23,8 +24,19 @@ void make_base_absolute(Setting& name) {
   if (!ships) *text = fs::absolute(file).lexically_normal().string();
 }
 
-/// Options in a table of changes that name files.
+void make_inherited_absolute(Setting& place) {
+  if (auto* list = std::get_if<Setting::List>(&place.value)) {
+    for (Setting& entry : *list) make_inherited_absolute(entry);
+    return;
+  }
+  auto* text = std::get_if<std::string>(&place.value);
+  if (!text || !scenarios::names_a_file(*text)) return;
+  *text = detail::as_file({.type = "a file"}, place, scenarios::inherits_key).path.string();
+}
+
+/// What a table of changes names as a file.
 void make_files_absolute(Setting& place, const std::string& key) {
+  if (key == scenarios::inherits_key) return make_inherited_absolute(place);
   if (place.is_table()) {
     for (auto& [name, entry] : place.table()) make_files_absolute(entry, dotted(key, name));
     return;

@@ -13,11 +13,12 @@ if TYPE_CHECKING:
 def catalogue(family: str | None = None) -> dict[str, dict[str, str]] | dict[str, str]:
     """Names and meanings of everything that can be chosen: of one family, or of all.
 
-    Families are those of `shoal list` (behaviour, solver, potential, current ...), with scenario and
-    study. Raises InputError for one that is not known.
+    Families are those of `shoal list` (behaviour, solver, potential, current ...), with scenario, set
+    and study. Raises InputError for one that is not known.
     """
     families = _shoal.members()
     families["scenario"] = {name: "an experiment to run" for name in _shoal.scenarios()}
+    families["set"] = _shoal.sets()
     families["study"] = {name: "trials with their tables and claims" for name in _shoal.studies()}
     if family is None:
         return families
