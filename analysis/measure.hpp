@@ -16,6 +16,13 @@ struct Quantity {
   std::string name;
   std::string unit;  ///< "" for a pure number
   std::string meaning;
+  /// Of the time to an event that a trial may never see: the value that says how long the trial was
+  /// watched for it. Where that has a value and the time has none, the event did not come by then;
+  /// where neither has, there was nothing to wait for.
+  std::string censored_by = {};
+  /// Of what is taken when an event comes, or at the end if it never does: the value that holds the
+  /// time to that event.
+  std::string event = {};
 };
 
 /// What the measures of one trial say. Names carry their units; a measure without a value (never

@@ -20,9 +20,14 @@ class Passage final : public Measure {
   std::vector<Quantity> values() const override {
     return {{"arrived_vehicles", "", "vehicles that have been at the way-point"},
             {"stranded_share", "", "share of the vehicles that never were"},
-            {"arrival_first_s", "s", "when the first vehicle was at the way-point"},
-            {"arrival_last_s", "s", "when the last one was, if all were"},
-            {"arrival_spread_s", "s", "between the first and the last, if all were"},
+            {"passage_watched_s", "s", "how long vehicles had to come to the way-point"},
+            {"arrival_first_s", "s", "when the first vehicle was at the way-point",
+             "passage_watched_s"},
+            {"arrival_last_s", "s", "when the last one was, if all were", "passage_watched_s"},
+            {.name = "arrival_spread_s",
+             .unit = "s",
+             .meaning = "between the first arrival and the last, or the end if not all arrived",
+             .event = "arrival_last_s"},
             {"clearance_min_m", "m", "closest that a vehicle came to an obstacle's edge"},
             {"cell_error_rms_m", "m", "error of the distances between vehicles under way, rms"},
             {"cell_error_worst_m", "m", "the same, rms over pairs, at the worst instant"},
@@ -97,14 +102,16 @@ class Passage final : public Measure {
     results.add("stranded_share",
                 if_way(1.0 - static_cast<double>(arrivals.size()) /
                                  static_cast<double>(std::max<std::size_t>(1, world.size()))));
+    results.add("passage_watched_s", if_way(world.time_s()));
     results.add("arrival_first_s",
                 arrivals.empty() ? std::nullopt : std::optional(arrivals.front()));
     results.add("arrival_last_s", all_arrived(world) && !arrivals.empty()
                                       ? std::optional(arrivals.back())
                                       : std::nullopt);
-    results.add("arrival_spread_s", all_arrived(world) && !arrivals.empty()
-                                        ? std::optional(arrivals.back() - arrivals.front())
-                                        : std::nullopt);
+    const double until_s =
+        all_arrived(world) && !arrivals.empty() ? arrivals.back() : world.time_s();
+    results.add("arrival_spread_s",
+                arrivals.empty() ? std::nullopt : std::optional(until_s - arrivals.front()));
     results.add("clearance_min_m",
                 std::isfinite(clearance_) ? std::optional(clearance_) : std::nullopt);
     const auto if_looked = [&](double value) {

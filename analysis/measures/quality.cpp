@@ -38,7 +38,8 @@ class Quality final : public Measure {
     return {
         {"quality_final_m", "m", "formation quality at the end of the mission"},
         {"quality_settled_m", "m", "mean quality in the last 60 % of the mission"},
-        {"time_to_quality_20m_s", "s", "when the quality was first below 20 m"},
+        {"time_to_quality_20m_s", "s", "when the quality was first below 20 m",
+         "quality_watched_s"},
         {"quality_worst_m", "m", "greatest quality in the last 60 % of the mission"},
         {"quality_last_m", "m", "mean quality in the last 10 % of the mission"},
         {"quality_trend_m_per_h", "m/h", "slope of the quality in the last 60 % of the mission"},
@@ -46,10 +47,16 @@ class Quality final : public Measure {
          "rms of the formed swarm's quality about its mean over 10 minutes"},
         {"quality_swing_m", "m",
          "how much the quality rises and falls again in the 10 minutes after the swarm formed"},
-        {"energy_to_quality_20m_wh", "Wh", "mean energy spent until the quality was below 20 m"},
-        {"path_straightness", "",
-         "distance from start / length of track, when the quality was first below 20 m, mean of "
-         "vehicles"}};
+        {"quality_watched_s", "s", "how long the quality was watched"},
+        {.name = "energy_to_quality_20m_wh",
+         .unit = "Wh",
+         .meaning = "mean energy spent until the quality was below 20 m, or all if it never was",
+         .event = "time_to_quality_20m_s"},
+        {.name = "path_straightness",
+         .unit = "",
+         .meaning = "distance from start / length of track, mean of vehicles, when the quality was "
+                    "first below 20 m, or at the end if it never was",
+         .event = "time_to_quality_20m_s"}};
   }
 
   std::vector<Quantity> series() const override {
@@ -61,11 +68,11 @@ class Quality final : public Measure {
     if (positions_.empty()) return;
     time_s_.push_back(world.time_s());
     quality_m_.push_back(metric_->of(positions_));
-    if (reached_s_ || quality_m_.back() >= good_m) return;
-    reached_s_ = world.time_s();
-    reached_wh_ = over_survivors(world, [&](std::size_t i) {
-                    return world.propulsion_wh(i) + world.hotel_wh(i) + world.comms_wh(i);
-                  })->mean;
+    if (reached_s_) return;
+    if (quality_m_.back() < good_m) reached_s_ = world.time_s();
+    spent_wh_ = over_survivors(world, [&](std::size_t i) {
+                  return world.propulsion_wh(i) + world.hotel_wh(i) + world.comms_wh(i);
+                })->mean;
     straightness_ = straightness(world);
   }
 
@@ -80,7 +87,9 @@ class Quality final : public Measure {
     results.add("quality_trend_m_per_h", history.trend_m_per_h(settled_from));
     results.add("quality_oscillation_m", history.oscillation_m());
     results.add("quality_swing_m", history.swing_m());
-    results.add("energy_to_quality_20m_wh", reached_wh_);
+    results.add("quality_watched_s",
+                time_s_.empty() ? std::nullopt : std::optional(time_s_.back()));
+    results.add("energy_to_quality_20m_wh", spent_wh_);
     results.add("path_straightness", straightness_);
     results.add_series("quality", time_s_, quality_m_);
   }
@@ -104,7 +113,8 @@ class Quality final : public Measure {
   std::vector<Eigen::Vector2d> positions_;
   std::vector<int> slots_;
   std::vector<double> time_s_, quality_m_;
-  std::optional<double> reached_s_, reached_wh_, straightness_;
+  std::optional<double> reached_s_;
+  std::optional<double> spent_wh_, straightness_;  ///< until then, or so far
 };
 
 const Enrol<Measure, Quality> enrolled{

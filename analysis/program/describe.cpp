@@ -98,6 +98,13 @@ bool describe_quantities(const std::string& name, std::vector<std::string>& know
     if (quantity.name != name) return;
     const std::string unit = quantity.unit.empty() ? "a pure number" : "in " + quantity.unit;
     fmt::print("{} ({} of a trial, {}): {}\n", name, what, unit, quantity.meaning);
+    if (!quantity.censored_by.empty()) {
+      fmt::print("  an event: tables count trials that never see it as later than {}\n",
+                 quantity.censored_by);
+    }
+    if (!quantity.event.empty()) {
+      fmt::print("  taken at an event, or at the end: {} says whether it came\n", quantity.event);
+    }
     found = true;
   };
   for (const auto& value : analysis::known_values()) describe(value, "value");

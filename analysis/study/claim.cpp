@@ -144,7 +144,7 @@ std::size_t ClaimScope::cell(const CellSelection& selection) const {
 std::vector<std::optional<double>> ClaimScope::answers(std::size_t cell) const {
   std::vector<std::optional<double>> answers;
   for (int k = 0; k < results.plan().groups()[group].replications(); ++k) {
-    answers.push_back(results.answer(question, results.plan().index(group, cell, k)));
+    answers.push_back(results.answer(question, results.plan().index(group, cell, k)).bounded());
   }
   return answers;
 }

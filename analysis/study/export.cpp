@@ -110,7 +110,7 @@ std::string StudyExport::csv() const {
     fields.emplace_back(status_of(results_.state(i)));
     fields.push_back(results_.failure(i));
     for (const std::string& metric : metrics_) {
-      const std::optional<double> value = results_.answer({.metric = metric}, i);
+      const std::optional<double> value = results_.stored(metric, i);
       fields.push_back(value ? shortest(*value) : "");
     }
     text += csv_line(fields);

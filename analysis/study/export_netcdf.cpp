@@ -173,9 +173,8 @@ class GroupWriter {
                  is_known ? known->meaning : name);
     file_.fill_with_nan(made);
     file_.compress(made);
-    file_.put(made, array(nan, [&](std::size_t i) {
-                return results_.answer({.metric = name}, i).value_or(nan);
-              }));
+    file_.put(made,
+              array(nan, [&](std::size_t i) { return results_.stored(name, i).value_or(nan); }));
   }
 
   template <class Visitor>

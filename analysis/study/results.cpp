@@ -31,7 +31,16 @@ std::optional<double> time_of(const scenarios::Series& series, double value) {
 StudyResults::StudyResults(const StudyPlan& plan, const std::vector<std::string>& metrics,
                            const std::vector<std::string>& series)
     : plan_(plan), states_(plan.trials(), State::missing), failures_(plan.trials()) {
-  for (const std::string& name : metrics) metrics_[name].resize(plan.trials());
+  for (const std::string& name : metrics) {
+    metrics_[name].resize(plan.trials());
+    const auto known = std::ranges::find(known_values(), name, &Quantity::name);
+    if (known == known_values().end()) continue;  // stored by another program
+    for (const std::string& companion : {known->censored_by, known->event}) {
+      if (companion.empty()) continue;
+      metrics_[companion].resize(plan.trials());
+      events_[name] = *known;
+    }
+  }
   for (const std::string& name : series) series_[name].resize(plan.trials());
 }
 
@@ -54,9 +63,11 @@ StudyResults::StudyResults(const StudyPlan& plan, const Store& store,
     }
     states_[found->second] = stored.failed() ? State::failed : State::done;
     failures_[found->second] = stored.failure;
-    for (const auto& [name, value] : stored.metrics) metrics_[name][found->second] = value;
+    for (const auto& [name, value] : stored.metrics) metrics_.at(name)[found->second] = value;
   };
-  store.visit(take, metrics);
+  std::vector<std::string> wanted;
+  for (const auto& [name, values] : metrics_) wanted.push_back(name);
+  store.visit(take, wanted);
   for (const std::string& name : series) {
     for (auto& [key, numbers] : store.series(name)) {
       const auto found = place.find(key);
@@ -76,22 +87,35 @@ const scenarios::Series* StudyResults::series(const std::string& name, std::size
   return numbers ? &*numbers : nullptr;
 }
 
-std::optional<double> StudyResults::answer(const Question& question, std::size_t trial) const {
-  if (states_[trial] != State::done) return std::nullopt;
+std::optional<double> StudyResults::stored(const std::string& metric, std::size_t trial) const {
+  const auto found = metrics_.find(metric);
+  if (found == metrics_.end()) throw std::logic_error("the metric " + metric + " was not read");
+  return states_[trial] == State::done ? found->second[trial] : std::nullopt;
+}
+
+Answer StudyResults::answer(const Question& question, std::size_t trial) const {
+  if (states_[trial] == State::missing) return {Answer::Kind::not_run};
+  if (states_[trial] == State::failed) return {Answer::Kind::failed};
+  const auto defined = [](const std::optional<double>& number) {
+    return number ? Answer{Answer::Kind::value, *number} : Answer{Answer::Kind::undefined};
+  };
   if (!question.metric.empty()) {
-    const auto found = metrics_.find(question.metric);
-    if (found == metrics_.end()) {
-      throw std::logic_error("the metric " + question.metric + " was not read");
-    }
-    return found->second[trial];
+    const std::optional<double> value = stored(question.metric, trial);
+    const auto event = events_.find(question.metric);
+    if (event == events_.end()) return defined(value);
+    const auto& [name, unit, meaning, censored_by, time] = event->second;
+    const std::optional<double> bound = time.empty() ? stored(censored_by, trial) : value;
+    const bool reached = time.empty() ? value.has_value() : stored(time, trial).has_value();
+    if (reached || !bound) return defined(value);
+    return {Answer::Kind::never_reached, *bound};
   }
   const scenarios::Series* numbers = series(question.series, trial);
-  if (!numbers) return std::nullopt;
-  if (question.against.empty()) return value_at(*numbers, question.at);
+  if (!numbers) return defined(std::nullopt);
+  if (question.against.empty()) return defined(value_at(*numbers, question.at));
   const scenarios::Series* against = series(question.against, trial);
-  if (!against) return std::nullopt;
+  if (!against) return defined(std::nullopt);
   const std::optional<double> time_s = time_of(*against, question.at);
-  return time_s ? value_at(*numbers, *time_s) : std::nullopt;
+  return defined(time_s ? value_at(*numbers, *time_s) : std::nullopt);
 }
 
 }  // namespace shoal::analysis

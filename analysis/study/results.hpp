@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "shoal/analysis/measure.hpp"
 #include "shoal/analysis/study/plan.hpp"
 #include "shoal/analysis/study/store.hpp"
 
@@ -20,12 +21,33 @@ struct Question {
   double at = 0.0;      ///< s, or the unit of `against`
 };
 
+/// What a trial answers.
+struct Answer {
+  enum class Kind : std::uint8_t {
+    not_run,
+    failed,
+    undefined,      ///< the question makes no sense of this trial: nothing was measured
+    never_reached,  ///< the event asked about did not come while the trial was watched
+    value,
+  };
+  Kind kind = Kind::not_run;
+  /// Of an event that never came: how long the trial was watched for it, or what was measured then.
+  double number = 0.0;
+
+  bool has_number() const { return kind == Kind::never_reached || kind == Kind::value; }
+  /// The number, with the end of the watch for an event that never came; or nothing.
+  std::optional<double> bounded() const {
+    return has_number() ? std::optional(number) : std::nullopt;
+  }
+};
+
 /// What is stored of the trials that a study asks for, by their places in the plan.
 class StudyResults {
  public:
   enum class State : std::uint8_t { missing, failed, done };
 
-  /// Of a study whose trials all are missing; these metrics and series may be asked for.
+  /// Of a study whose trials all are missing; these metrics (and those that say whether their
+  /// events came) and series may be asked for.
   StudyResults(const StudyPlan& plan, const std::vector<std::string>& metrics,
                const std::vector<std::string>& series);
 
@@ -41,9 +63,11 @@ class StudyResults {
   /// The shoal that ran the trials; "" if none has run.
   const std::string& program() const { return program_; }
 
-  /// Nothing if the trial is missing or failed, or if what is asked for has no value there: a
-  /// metric that is null, a series that begins later or ends before.
-  std::optional<double> answer(const Question& question, std::size_t trial) const;
+  /// Undefined is a metric that is null, a series that begins later or ends before.
+  Answer answer(const Question& question, std::size_t trial) const;
+
+  /// A metric as the trial stored it: nothing where it is null, or the trial is not done.
+  std::optional<double> stored(const std::string& metric, std::size_t trial) const;
 
   const scenarios::Series* series(const std::string& name, std::size_t trial) const;
 
@@ -53,6 +77,7 @@ class StudyResults {
   std::vector<std::string> failures_;
   std::string program_;
   std::map<std::string, std::vector<std::optional<double>>> metrics_;
+  std::map<std::string, Quantity> events_;  ///< those of the metrics that wait for an event
   std::map<std::string, std::vector<std::optional<scenarios::Series>>> series_;
 };
 

@@ -44,7 +44,7 @@ std::vector<std::optional<double>> answers_of(const StudyResults& results, std::
   for (std::size_t cell = 0; cell < planned.cells(); ++cell) {
     std::optional<double> sum = 0.0;
     for (int k = 0; k < planned.replications(); ++k) {
-      const auto answer = results.answer(question, results.plan().index(group, cell, k));
+      const auto answer = results.answer(question, results.plan().index(group, cell, k)).bounded();
       sum = sum && answer ? std::optional(*sum + *answer) : std::nullopt;
     }
     answers.push_back(sum ? std::optional(*sum / planned.replications()) : std::nullopt);

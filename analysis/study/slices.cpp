@@ -159,7 +159,8 @@ Sample Slices::sample(const std::vector<std::size_t>& place, const Question& que
   for (const Member& member : found->second) {
     if (results_.state(member.trial) != StudyResults::State::done) {
       ++sample.failed;
-    } else if (const std::optional<double> answer = results_.answer(question, member.trial)) {
+    } else if (const std::optional<double> answer =
+                   results_.answer(question, member.trial).bounded()) {
       sample.values.push_back(*answer);
       sample.pairs.push_back(member.pair);
     }

@@ -4,6 +4,7 @@
 #include <map>
 #include <set>
 #include <stdexcept>
+#include <tuple>
 
 #include "shoal/analysis/trial.hpp"
 #include "shoal/scenarios/toml_file.hpp"
@@ -50,8 +51,9 @@ TEST(KnownQuantities, EndWithTheirUnit) {
       {"m", "_m"}, {"s", "_s"},     {"deg", "_deg"},     {"Wh", "_wh"},
       {"W", "_w"}, {"m/s", "_m_s"}, {"m/h", "_m_per_h"}, {"m/Wh", "_m_per_wh"}};
   for (const auto* known : {&known_values(), &known_series()}) {
-    for (const auto& [name, unit, meaning] : *known) {
-      EXPECT_FALSE(meaning.empty()) << name;
+    for (const Quantity& each : *known) {
+      const auto& [name, unit] = std::tie(each.name, each.unit);
+      EXPECT_FALSE(each.meaning.empty()) << name;
       if (name == "quality") continue;  // as run.nc has called it from the first
       if (unit.empty()) {
         for (const auto& [other, ending] : endings) EXPECT_FALSE(name.ends_with(ending)) << name;
@@ -60,6 +62,18 @@ TEST(KnownQuantities, EndWithTheirUnit) {
       }
     }
   }
+}
+
+TEST(KnownQuantities, ThatWaitForAnEventNameItsTimeOrTheirWatch) {
+  int events = 0;
+  for (const Quantity& each : known_values()) {
+    if (!each.censored_by.empty()) {
+      EXPECT_EQ(known_value(each.censored_by).unit, each.unit) << each.name;
+      ++events;
+    }
+    if (!each.event.empty()) EXPECT_FALSE(known_value(each.event).censored_by.empty()) << each.name;
+  }
+  EXPECT_GE(events, 3);
 }
 
 TEST(KnownQuantities, RefuseAnUnknownNameWithTheLikelyOne) {

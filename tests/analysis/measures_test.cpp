@@ -185,7 +185,8 @@ TEST(Quality, OfTwoVehiclesIsHalfTheErrorOfTheirDistance) {
   EXPECT_NEAR(*results.at("quality_worst_m"), 50.0, 1e-9);
   EXPECT_NEAR(*results.at("quality_last_m"), 50.0, 1e-9);
   EXPECT_EQ(results.at("time_to_quality_20m_s"), std::nullopt);
-  EXPECT_EQ(results.at("energy_to_quality_20m_wh"), std::nullopt);
+  EXPECT_EQ(results.at("quality_watched_s"), 60.0);
+  EXPECT_EQ(results.at("energy_to_quality_20m_wh"), results.at("energy_mean_wh"));
 }
 
 TEST(Quality, KnowsHowStraightVehiclesWentToTheirPlaces) {
@@ -307,6 +308,7 @@ TEST(Passage, TellsTheTimeInMotionsThatTheEnvelopeDoesNotKnow) {
 TEST(Passage, IsNotMeasuredWhereThereIsNoWay) {
   const Results results = run(parked).results;
   EXPECT_EQ(results.at("arrived_vehicles"), std::nullopt);
+  EXPECT_EQ(results.at("passage_watched_s"), std::nullopt);
   EXPECT_EQ(results.at("cell_error_rms_m"), std::nullopt);
   EXPECT_EQ(results.at("clearance_min_m"), std::nullopt);
   EXPECT_TRUE(series(results, "separation_m").values.empty());
@@ -318,6 +320,8 @@ TEST(Passage, KnowsWhoDidNotArrive) {
   EXPECT_EQ(results.at("stranded_share"), 1.0);
   EXPECT_EQ(results.at("arrival_first_s"), std::nullopt);
   EXPECT_EQ(results.at("arrival_last_s"), std::nullopt);
+  EXPECT_EQ(results.at("arrival_spread_s"), std::nullopt);
+  EXPECT_EQ(results.at("passage_watched_s"), 100.0);
 }
 
 TEST(Estimation, OfVehiclesThatKnowTheirStatesIsNotMeasured) {

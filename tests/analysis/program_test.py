@@ -16,18 +16,17 @@ energy_hotel_mean_wh energy_comms_mean_wh quality_final_m quality_settled_m time
 centroid_path_m centroid_displacement_m efficiency_m_per_wh thrust_time_ratio_mean
 thrust_time_ratio_min thrust_time_ratio_max thrust_distance_ratio_mean formation_rotation_deg
 min_separation_m fragments lost_vehicles energy_spread_wh energy_rate_w quality_worst_m
-quality_last_m quality_trend_m_per_h quality_oscillation_m quality_swing_m energy_to_quality_20m_wh
+quality_last_m quality_trend_m_per_h quality_oscillation_m quality_swing_m quality_watched_s energy_to_quality_20m_wh
 thrust_time_ratio_spread thrust_distance_ratio_min thrust_distance_ratio_max
 thrust_distance_ratio_spread path_straightness rotation_disagreement_deg
 rotation_disagreement_first_hour_deg""".split()
 # Of trials with a way-point, or vehicles that estimate their states.
-ELSEWHERE = """arrived_vehicles stranded_share arrival_first_s arrival_last_s arrival_spread_s clearance_min_m
+ELSEWHERE = """arrived_vehicles stranded_share passage_watched_s arrival_first_s arrival_last_s arrival_spread_s clearance_min_m
 cell_error_rms_m cell_error_worst_m cell_error_final_m control_effort_m_s outside_envelope_share position_error_rms_m
 speed_error_rms_m_s heading_error_rms_deg nees_mean nees_inside_share fault_share
 outlier_share""".split()
 # What five minutes are too short for.
-LATER = ["time_to_quality_20m_s", "energy_to_quality_20m_wh", "quality_oscillation_m",
-         "quality_swing_m", "path_straightness"]
+LATER = ["time_to_quality_20m_s", "quality_oscillation_m", "quality_swing_m"]
 BESIDE = ["scenario", "behaviour", "seed", "program", "vehicles", "duration_s", "wall_s",
           "vehicle_seconds_per_wall_s", "metrics"]
 BEHAVIOURS = ["assignment_registration", "attraction_repulsion", "pairwise_referencing",

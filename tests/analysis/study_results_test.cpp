@@ -191,6 +191,43 @@ TEST_F(Stored, ATableShowsNAndFailuresAndTheBestOnlyIfATestTellsIt) {
   EXPECT_FALSE(std::get<Estimate>(cell_table(request, all).rows[0][1]).best);
 }
 
+TEST_F(Stored, NotRunFailedUndefinedAndNeverReachedAreFourAnswers) {
+  using enum Answer::Kind;
+  const StudyPlan plan(read_study(scenarios::parse_toml(study_text, "study.toml")));
+  Store store(folder_, Store::Access::write);
+  using Metrics = std::vector<std::pair<std::string, std::optional<double>>>;
+  const std::vector<Metrics> trials{
+      {{"time_to_quality_20m_s", 600.0}, {"quality_watched_s", 3600.0}, {"path_straightness", 0.9}},
+      {{"time_to_quality_20m_s", {}}, {"quality_watched_s", 3600.0}, {"path_straightness", 0.5}},
+      {{"time_to_quality_20m_s", {}}, {"quality_watched_s", {}}, {"path_straightness", {}}},
+      {}};
+  for (std::size_t i = 0; i < trials.size(); ++i) {
+    const PlannedTrial& planned = plan.trial(i);
+    StoredTrial trial;
+    trial.key = plan.groups().front().key(planned.cell, planned.replication);
+    trial.program = "test";
+    trial.metrics = trials[i];
+    if (trials[i].empty()) trial.failure = "it sank";
+    store.write(trial);
+  }
+  const StudyResults all(plan, store, {"time_to_quality_20m_s", "path_straightness"}, {});
+  const auto answer = [&](const char* metric, std::size_t i) {
+    const Answer found = all.answer({.metric = metric}, i);
+    return std::pair(found.kind, found.number);
+  };
+  for (const std::size_t i : {0, 1, 2, 3, 4}) {
+    const Answer::Kind kinds[]{value, never_reached, undefined, failed, not_run};
+    EXPECT_EQ(answer("time_to_quality_20m_s", i), std::pair(kinds[i], i == 0   ? 600.0
+                                                                      : i == 1 ? 3600.0
+                                                                               : 0.0));
+    EXPECT_EQ(answer("path_straightness", i), std::pair(kinds[i], i == 0   ? 0.9
+                                                                  : i == 1 ? 0.5
+                                                                           : 0.0));
+  }
+  EXPECT_EQ(all.answer({.metric = "time_to_quality_20m_s"}, 1).bounded(), 3600.0);
+  EXPECT_EQ(all.stored("time_to_quality_20m_s", 1), std::nullopt);
+}
+
 TEST_F(Stored, AFactorIsNotAveragedInSilence) {
   const StudyResults all = results({{{rigid, "10"}, low}, {{rigid, "20"}, high}});
   TableRequest request;
