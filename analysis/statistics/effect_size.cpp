@@ -5,12 +5,12 @@
 
 namespace shoal::analysis::statistics {
 
-std::optional<double> cohens_d_z(Sample differences) {
-  if (!standard_error(differences)) return std::nullopt;
-  return mean(differences) / standard_deviation(differences);
+std::optional<double> cohens_d_z(const Differences& differences) {
+  if (!differences.standard_error()) return std::nullopt;
+  return mean(differences.values()) / standard_deviation(differences.values());
 }
 
-std::optional<double> hedges_g_z(Sample differences) {
+std::optional<double> hedges_g_z(const Differences& differences) {
   const std::optional<double> d_z = cohens_d_z(differences);
   if (!d_z || differences.size() < 3) return std::nullopt;
   const double half = static_cast<double>(differences.size() - 1) / 2.0;

@@ -2,7 +2,7 @@
 
 #include <optional>
 
-#include "shoal/analysis/statistics/sample.hpp"
+#include "shoal/analysis/statistics/differences.hpp"
 
 namespace shoal::analysis::statistics {
 
@@ -12,6 +12,6 @@ namespace shoal::analysis::statistics {
 ///
 /// That a test finds no difference does not show that there is none; this does. Nothing where there
 /// is no standard error (sample.hpp). Throws std::invalid_argument unless the margin is above 0.
-std::optional<double> equivalence_p_value(Sample differences, double margin);
+std::optional<double> equivalence_p_value(const Differences& differences, double margin);
 
 }  // namespace shoal::analysis::statistics

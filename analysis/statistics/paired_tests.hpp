@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <optional>
 
-#include "shoal/analysis/statistics/sample.hpp"
+#include "shoal/analysis/statistics/differences.hpp"
 
 namespace shoal::analysis::statistics {
 
@@ -12,6 +12,14 @@ namespace shoal::analysis::statistics {
 
 /// What speaks against the null hypothesis: differences far from 0, above it, or below it.
 enum class Alternative { two_sided, greater, less };
+
+/// The tests below, by name.
+enum class PairedTest : std::uint8_t { sign_flip, wilcoxon, paired_t };
+
+/// The least two-sided p-value that a test of `n` differences can give, whatever they are: 2^(1 -
+/// n) of the exact tests, since of all patterns of signs that of the sample and its opposite count;
+/// 0 where there is no such bound.
+double least_p_value(PairedTest test, int n);
 
 struct TestResult {
   double statistic = 0.0;
@@ -27,27 +35,27 @@ struct SignFlipOptions {
 
 /// Fisher's randomisation test of the mean (The design of experiments 1935, sec. 21): the share of
 /// all 2^n patterns of signs that give a mean as far out as the observed one. Means that differ by
-/// rounding only are equal.
+/// rounding only (differences.hpp) are equal.
 ///
 /// Exact up to n = 32; beyond, `resamples` random patterns, b of them as far out, and the p-value
 /// (b + 1) / (resamples + 1), which never understates the level (Phipson and Smyth 2010). The
 /// statistic is the mean. Nothing for n = 0.
-std::optional<TestResult> sign_flip_test(Sample differences,
+std::optional<TestResult> sign_flip_test(const Differences& differences,
                                          Alternative alternative = Alternative::two_sided,
                                          const SignFlipOptions& options = {});
 
 /// Wilcoxon's signed-rank test. Differences of 0 are left out, as Wilcoxon 1945 did (not ranked, as
-/// Pratt 1959 does), equal ones share their midrank.
+/// Pratt 1959 does), equal ones share their midrank; both up to rounding (differences.hpp).
 ///
 /// Exact up to n = 100, also with ties; beyond, normal with a correction for ties and for
 /// continuity (Hollander and Wolfe 1999, sec. 3.1). The statistic is the sum of the ranks of
 /// positive differences. Nothing if there is no difference but 0.
-std::optional<TestResult> signed_rank_test(Sample differences,
+std::optional<TestResult> signed_rank_test(const Differences& differences,
                                            Alternative alternative = Alternative::two_sided);
 
 /// Student's t test; exact for normal differences. The statistic is t, with n - 1 degrees of
 /// freedom. Nothing where there is no standard error (sample.hpp).
-std::optional<TestResult> paired_t_test(Sample differences,
+std::optional<TestResult> paired_t_test(const Differences& differences,
                                         Alternative alternative = Alternative::two_sided);
 
 }  // namespace shoal::analysis::statistics

@@ -1,5 +1,6 @@
 #include "shoal/analysis/statistics/sample.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numeric>
@@ -28,7 +29,10 @@ void require_finite(Sample values) {
 double mean(Sample values) {
   require_finite(values);
   if (values.empty()) return none;
-  return std::accumulate(values.begin(), values.end(), 0.0) / count(values);
+  const double sum = std::accumulate(values.begin(), values.end(), 0.0);
+  if (std::isfinite(sum)) return sum / count(values);
+  return std::accumulate(values.begin(), values.end(), 0.0,
+                         [&](double part, double x) { return part + x / count(values); });
 }
 
 double standard_deviation(Sample values) {
@@ -36,7 +40,16 @@ double standard_deviation(Sample values) {
   if (values.size() < 2) return none;
   double squares = 0.0;
   for (const double x : values) squares += (x - centre) * (x - centre);
-  return std::sqrt(squares / (count(values) - 1.0));
+  if (std::isfinite(squares) && squares >= std::numeric_limits<double>::min()) {
+    return std::sqrt(squares / (count(values) - 1.0));
+  }
+  // Squares of the least and the greatest doubles are none.
+  double furthest = 0.0;
+  for (const double x : values) furthest = std::max(furthest, std::abs(x / 2.0 - centre / 2.0));
+  if (furthest == 0.0) return 0.0;
+  squares = 0.0;
+  for (const double x : values) squares += std::pow((x / 2.0 - centre / 2.0) / furthest, 2);
+  return 2.0 * furthest * std::sqrt(squares / (count(values) - 1.0));
 }
 
 std::optional<double> standard_error(Sample values) {

@@ -66,10 +66,10 @@ double normal_p_value(const std::vector<SignedRank>& ranks, Alternative alternat
 
 }  // namespace
 
-std::vector<SignedRank> signed_ranks(Sample differences) {
-  require_finite(differences);
+std::vector<SignedRank> signed_ranks(const Differences& differences) {
   std::vector<double> ordered;
-  std::ranges::copy_if(differences, std::back_inserter(ordered), [](double x) { return x != 0.0; });
+  std::ranges::copy_if(differences.values(), std::back_inserter(ordered),
+                       [&](double x) { return !differences.is_zero(x); });
   const auto magnitude = [](double x) { return std::abs(x); };
   std::ranges::stable_sort(ordered, {}, magnitude);
 
@@ -77,16 +77,18 @@ std::vector<SignedRank> signed_ranks(Sample differences) {
   while (ranks.size() < ordered.size()) {
     const std::size_t first = ranks.size();
     std::size_t last = first;
-    while (last + 1 < ordered.size() && magnitude(ordered[last + 1]) == magnitude(ordered[first])) {
-      ++last;
-    }
+    const auto ties = [&](double x) {
+      return magnitude(x) - magnitude(ordered[first]) <= differences.rounding();
+    };
+    while (last + 1 < ordered.size() && ties(ordered[last + 1])) ++last;
     const auto doubled = static_cast<int>(first + 1 + last + 1);
     for (std::size_t i = first; i <= last; ++i) ranks.push_back({doubled, ordered[i] > 0.0});
   }
   return ranks;
 }
 
-std::optional<TestResult> signed_rank_test(Sample differences, Alternative alternative) {
+std::optional<TestResult> signed_rank_test(const Differences& differences,
+                                           Alternative alternative) {
   const std::vector<SignedRank> ranks = signed_ranks(differences);
   if (ranks.empty()) return std::nullopt;
   const bool exact = ranks.size() <= exact_up_to;
@@ -97,7 +99,7 @@ std::optional<TestResult> signed_rank_test(Sample differences, Alternative alter
       .exact = exact};
 }
 
-std::optional<double> rank_biserial_correlation(Sample differences) {
+std::optional<double> rank_biserial_correlation(const Differences& differences) {
   const std::vector<SignedRank> ranks = signed_ranks(differences);
   if (ranks.empty()) return std::nullopt;
   const auto [all, positive] = rank_sums(ranks);

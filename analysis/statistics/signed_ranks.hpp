@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "shoal/analysis/statistics/sample.hpp"
+#include "shoal/analysis/statistics/differences.hpp"
 
 namespace shoal::analysis::statistics {
 
@@ -13,7 +13,7 @@ struct SignedRank {
   bool positive = false;
 };
 
-/// Of all differences but those that are 0, by magnitude.
-std::vector<SignedRank> signed_ranks(Sample differences);
+/// Of all differences but those that are 0, by magnitude; those equal up to rounding are tied.
+std::vector<SignedRank> signed_ranks(const Differences& differences);
 
 }  // namespace shoal::analysis::statistics

@@ -2,7 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 #include <random>
 #include <stdexcept>
 #include <vector>
@@ -70,6 +72,93 @@ TEST(Replications, AreNothingBeyondTheMost) {
   EXPECT_FALSE(replications_for(0.5, 1.0, 0.05, 0.8, 33));
   EXPECT_FALSE(replications_for(100.0, 1.0, 0.05, 0.8, 1));
   EXPECT_FALSE(replications_for(0.0, 1.0, 0.05, 0.8));
+}
+
+TEST(Power, OfAnyEffectIsANumber) {
+  for (const double effect : {1e-300, 1e3, 1e13, 1e300, std::numeric_limits<double>::infinity()}) {
+    for (const double alpha : {0.05, 1e-4, 1e-12}) {
+      for (const int n : {2, 3, 40, 10'000}) {
+        const double power = paired_t_power(n, effect, 1.0, alpha);
+        EXPECT_GE(power, alpha * (1.0 - 1e-9)) << n << " " << effect;
+        EXPECT_LE(power, 1.0);
+        EXPECT_LE(paired_t_power(n, effect, 1.0, alpha, Alternative::less), alpha * (1.0 + 1e-9));
+      }
+      EXPECT_GE(paired_t_power(40, std::max(effect, 1e3), 1.0, alpha), 1.0 - 1e-12);
+    }
+  }
+  EXPECT_EQ(replications_for(1.0, 1e-13, 0.05, 0.8), 2);
+  EXPECT_EQ(replications_for(1.0, std::numeric_limits<double>::denorm_min(), 0.05, 0.8), 2);
+}
+
+TEST(Power, OfTwoPairsIsThatOfTheCauchyDistributionWithoutAnEffect) {
+  EXPECT_NEAR(paired_t_power(2, 0.0, 1.0, 1e-6), 1e-6, 1e-15);
+}
+
+using enum PairedTest;
+
+TEST(LeastPValue, IsWhatTheTestGivesWhenAllDifferencesAgree) {
+  for (const int n : {1, 5, 20, 32}) {
+    std::vector<double> agreeing;
+    for (int i = 1; i <= n; ++i) agreeing.push_back(i);
+    EXPECT_EQ(sign_flip_test(agreeing)->p_value, least_p_value(sign_flip, n));
+    EXPECT_NEAR(signed_rank_test(agreeing)->p_value, least_p_value(wilcoxon, n), 1e-15);
+  }
+  EXPECT_EQ(least_p_value(paired_t, 5), 0.0);
+  EXPECT_EQ(sign_flip_test(std::vector<double>(40, 1.0))->p_value, least_p_value(sign_flip, 40));
+}
+
+TEST(PowerOfExactTests, IsTheShareOfSamplesInWhichTheyReject) {
+  std::mt19937 random(7);
+  std::normal_distribution<double> normal;
+  struct Case {
+    PairedTest test;
+    int n;
+    double effect, alpha;
+  };
+  // Few patterns of signs, where the power is simulated, and many, where it is the t test's.
+  for (const Case& each : {Case{sign_flip, 6, 1.5, 0.05}, Case{sign_flip, 9, 1.0, 0.05},
+                           Case{sign_flip, 16, 0.8, 0.05}, Case{wilcoxon, 7, 1.5, 0.05},
+                           Case{wilcoxon, 12, 0.9, 0.01}, Case{wilcoxon, 70, 0.35, 0.05}}) {
+    constexpr int repetitions = 4000;
+    int rejected = 0;
+    for (int i = 0; i < repetitions; ++i) {
+      std::vector<double> sample(static_cast<std::size_t>(each.n));
+      for (double& x : sample) x = each.effect + normal(random);
+      const auto result =
+          each.test == sign_flip ? sign_flip_test(sample) : signed_rank_test(sample);
+      rejected += result->p_value <= each.alpha ? 1 : 0;
+    }
+    const double power = two_sided_power(each.test, each.n, each.effect, each.alpha);
+    // Both are shares of 4000 samples; formulas may be off by a hundredth.
+    const double error = std::sqrt(2.0 * power * (1.0 - power) / repetitions);
+    EXPECT_NEAR(rejected / static_cast<double>(repetitions), power, 4.0 * error + 0.01)
+        << each.n << " " << each.effect;
+  }
+}
+
+TEST(PowerOfExactTests, IsNoneBelowTheirFloor) {
+  EXPECT_EQ(two_sided_power(sign_flip, 5, 100.0, 0.05), 0.0);  // 2 / 32
+  EXPECT_EQ(two_sided_power(sign_flip, 6, 100.0, 0.05), 1.0);  // 2 / 64
+  EXPECT_EQ(two_sided_power(wilcoxon, 5, 100.0, 0.05), 0.0);
+  EXPECT_EQ(two_sided_power(wilcoxon, 6, 100.0, 0.05), 1.0);
+}
+
+TEST(Replications, OfExactTestsAreNeverFewerThanTheirFloorAsks) {
+  const double never_scatters = std::numeric_limits<double>::infinity();
+  EXPECT_EQ(replications_for(paired_t, never_scatters, 0.05, 0.8), 2);
+  EXPECT_EQ(replications_for(sign_flip, never_scatters, 0.05, 0.8), 6);
+  EXPECT_EQ(replications_for(wilcoxon, never_scatters, 0.05, 0.8), 6);
+  EXPECT_EQ(replications_for(sign_flip, never_scatters, 0.05 / 48.0, 0.8), 11);  // 48 rows, Holm
+  for (const double effect : {0.4, 0.8, 1.6, 5.0}) {
+    const int t = replications_for(paired_t, effect, 0.05, 0.8).value();
+    for (const PairedTest test : {sign_flip, wilcoxon}) {
+      const int n = replications_for(test, effect, 0.05, 0.8).value();
+      EXPECT_GE(n, std::max(t, 6)) << effect;
+      EXPECT_LE(n, std::max(6.0, 1.1 * t + 3.0)) << effect;
+      EXPECT_GE(two_sided_power(test, n, effect, 0.05), 0.8) << effect;
+    }
+  }
+  EXPECT_FALSE(replications_for(sign_flip, 0.0, 0.05, 0.8, 100));
 }
 
 TEST(Power, RefusesWhatIsNoQuestion) {
