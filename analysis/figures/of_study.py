@@ -105,7 +105,7 @@ def rows_down(ax, names):
 
 
 def indices(table):
-    """First-order and total indices (or Morris' mu* and sigma), with their intervals."""
+    """First-order and total indices, or those of pairs (or Morris' mu* and sigma), with their intervals."""
     metrics = list(dict.fromkeys(row["metric"] for row in table.rows))
     figure, axes = axes_for(len(metrics), 0.5)
     for ax, metric in zip(axes, metrics):
@@ -122,7 +122,8 @@ def indices(table):
             ax.hlines(place, [low[i] for i in rows], [high[i] for i in rows], color="black",
                       linewidth=0.8)
         ax.axvline(0, color="black", linewidth=0.5)
-        rows_down(ax, [words(table.rows[i]["factor"]) for i in rows])
+        rows_down(ax, [" and ".join(words(table.rows[i][label]) for label in ("factor", "and_factor")
+                                    if label in table.rows[i]) for i in rows])
         ax.set_title(sentence(metric), fontsize=8)
     axes[0].legend(loc="lower right")
     return figure

@@ -25,15 +25,41 @@ Eigen::VectorXd means_of_resample(const Eigen::MatrixXd& samples, std::uint64_t 
   return sum / n;
 }
 
+/// How often each seed is drawn; each once, where too few would be left.
+Eigen::VectorXd weights_of_resample(Eigen::Index seeds, std::uint64_t seed,
+                                    std::uint32_t resample) {
+  if (seeds < 3) return Eigen::VectorXd::Ones(seeds);
+  constexpr std::uint64_t apart = std::uint64_t{1} << 40;  // from the draws of samples
+  const RandomStreams random(seed);
+  for (std::uint64_t draw = apart;;) {
+    Eigen::VectorXd weights = Eigen::VectorXd::Zero(seeds);
+    for (Eigen::Index i = 0; i < seeds; ++i) {
+      const double u = random.uniform(Purpose::bootstrap, resample, draw++)[0];
+      weights[static_cast<Eigen::Index>(u * static_cast<double>(seeds))] += 1.0;
+    }
+    if (weights.maxCoeff() < static_cast<double>(seeds)) return weights;
+  }
+}
+
 }  // namespace
 
 std::vector<IndexEstimate> bootstrap(const Eigen::MatrixXd& samples, const OfMeans& of_means,
                                      const Resampling& resampling) {
+  const auto unweighted = [&](const Eigen::VectorXd& means, const Eigen::VectorXd&) {
+    return of_means(means);
+  };
+  return crossed_bootstrap(samples, 1, unweighted, resampling);
+}
+
+std::vector<IndexEstimate> crossed_bootstrap(const Eigen::MatrixXd& samples, Eigen::Index seeds,
+                                             const OfWeightedMeans& of_means,
+                                             const Resampling& resampling) {
   if (!(resampling.level > 0.0 && resampling.level < 1.0)) {
     throw std::invalid_argument("a confidence level is not between 0 and 1");
   }
   if (resampling.resamples < 1) throw std::invalid_argument("a bootstrap needs resamples");
-  const std::optional<Eigen::VectorXd> values = of_means(samples.rowwise().mean());
+  const std::optional<Eigen::VectorXd> values =
+      of_means(samples.rowwise().mean(), Eigen::VectorXd::Ones(seeds));
   if (!values) throw std::invalid_argument("the samples of a bootstrap define no estimates");
 
   std::vector<IndexEstimate> estimates;
@@ -42,8 +68,9 @@ std::vector<IndexEstimate> bootstrap(const Eigen::MatrixXd& samples, const OfMea
 
   Eigen::MatrixXd replicates(resampling.resamples, values->size());
   for (Eigen::Index b = 0; b < replicates.rows(); ++b) {
-    const auto replicate =
-        of_means(means_of_resample(samples, resampling.seed, static_cast<std::uint32_t>(b)));
+    const auto number = static_cast<std::uint32_t>(b);
+    const auto replicate = of_means(means_of_resample(samples, resampling.seed, number),
+                                    weights_of_resample(seeds, resampling.seed, number));
     if (!replicate) return estimates;
     replicates.row(b) = replicate->transpose();
   }

@@ -42,6 +42,16 @@ using OfMeans = std::function<std::optional<Eigen::VectorXd>(const Eigen::Vector
 std::vector<IndexEstimate> bootstrap(const Eigen::MatrixXd& samples, const OfMeans& of_means,
                                      const Resampling& resampling);
 
+/// The same for estimates that also depend on how often each of some seeds counts.
+using OfWeightedMeans = std::function<std::optional<Eigen::VectorXd>(
+    const Eigen::VectorXd& means, const Eigen::VectorXd& seed_weights)>;
+
+/// The same for samples that were all met under the same seeds: a resample draws samples and, from
+/// three seeds on, seeds, until two of these differ (the pigeonhole bootstrap, Owen 2007).
+std::vector<IndexEstimate> crossed_bootstrap(const Eigen::MatrixXd& samples, Eigen::Index seeds,
+                                             const OfWeightedMeans& of_means,
+                                             const Resampling& resampling);
+
 /// Throws std::invalid_argument if an answer is not finite.
 void require_finite(Answers answers);
 

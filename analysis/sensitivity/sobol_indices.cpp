@@ -5,13 +5,13 @@
 #include <limits>
 #include <stdexcept>
 
+#include "shoal/analysis/sensitivity/sobol_moments.hpp"
+
 namespace shoal::analysis {
 namespace {
 
 // Of the size of the answers: what the rounding of a few operations may amount to.
 constexpr double rounding = 10.0 * std::numeric_limits<double>::epsilon();
-// A resample with less variance than this, relative to its mean square, is all one value.
-constexpr double rounding_of_sums = 1e-12;
 
 /// Whether answers to A and B (first and last row) all agree.
 bool constant(const Eigen::MatrixXd& answers) {
@@ -21,96 +21,97 @@ bool constant(const Eigen::MatrixXd& answers) {
   return high - low <= rounding * std::max(std::abs(low), std::abs(high));
 }
 
-/// Rows A, AB_1 ... AB_k, B; a column for each base sample with all its answers.
-Eigen::MatrixXd complete_samples(Answers answers, std::size_t rows) {
-  std::vector<double> complete;
-  for (std::size_t j = 0; j < answers.size(); j += rows) {
-    const Answers sample = answers.subspan(j, rows);
-    if (!std::ranges::all_of(sample, [](const auto& y) { return y.has_value(); })) continue;
-    for (const auto& y : sample) complete.push_back(*y);
+/// Of each seed, rows of the design x the base samples with all their answers.
+std::vector<Eigen::MatrixXd> complete_samples(const AnswersBySeed& answers, std::size_t rows) {
+  std::vector<std::size_t> complete;  // where they begin
+  for (std::size_t j = 0; j < answers.front().size(); j += rows) {
+    const bool all = std::ranges::all_of(answers, [&](const auto& of_seed) {
+      return std::ranges::all_of(Answers(of_seed).subspan(j, rows),
+                                 [](const auto& y) { return y.has_value(); });
+    });
+    if (all) complete.push_back(j);
   }
-  return Eigen::Map<Eigen::MatrixXd>(complete.data(), static_cast<Eigen::Index>(rows),
-                                     static_cast<Eigen::Index>(complete.size() / rows));
+  std::vector<Eigen::MatrixXd> seeds;
+  for (const auto& of_seed : answers) {
+    Eigen::MatrixXd& samples = seeds.emplace_back(static_cast<Eigen::Index>(rows),
+                                                  static_cast<Eigen::Index>(complete.size()));
+    for (std::size_t j = 0; j < complete.size(); ++j) {
+      for (std::size_t r = 0; r < rows; ++r) {
+        samples(static_cast<Eigen::Index>(r), static_cast<Eigen::Index>(j)) =
+            *of_seed[complete[j] + r];
+      }
+    }
+  }
+  return seeds;
 }
 
-/// Of each base sample, the numbers whose means the estimators are made of. With a, b and c the
-/// answers to A, B and AB_i: (a + b) / 2, (a^2 + b^2) / 2, and for each factor
-/// b (c - a), c - a, (c - a)^2 / 2.
-Eigen::MatrixXd moments(const Eigen::MatrixXd& answers) {
-  const Eigen::Index k = answers.rows() - 2;
-  const Eigen::ArrayXXd y = answers.array();
-  const Eigen::ArrayXXd a = y.row(0), b = y.row(k + 1);
-  Eigen::MatrixXd moments(2 + 3 * k, answers.cols());
-  moments.row(0) = (a + b) / 2.0;
-  moments.row(1) = (a.square() + b.square()) / 2.0;
-  for (Eigen::Index i = 0; i < k; ++i) {
-    const Eigen::ArrayXXd change = y.row(1 + i) - a;
-    moments.row(2 + 3 * i) = b * change;
-    moments.row(3 + 3 * i) = change;
-    moments.row(4 + 3 * i) = change.square() / 2.0;
+std::size_t rows_of_sample(const AnswersBySeed& answers, SaltelliRows design) {
+  if (design.factors < 1) throw std::invalid_argument("Sobol' indices need a factor");
+  if (answers.empty()) throw std::invalid_argument("Sobol' indices need a seed");
+  const auto rows = static_cast<std::size_t>(design.count());
+  for (const auto& of_seed : answers) {
+    if (of_seed.size() % rows != 0 || of_seed.size() != answers.front().size()) {
+      throw std::invalid_argument("the answers are not those of whole base samples");
+    }
+    require_finite(of_seed);
   }
-  return moments;
-}
-
-/// First-order and total index of each factor in turn, from the means of `moments`.
-std::optional<Eigen::VectorXd> indices(const Eigen::VectorXd& means) {
-  const double mean = means[0];
-  const double variance = means[1] - mean * mean;
-  if (variance <= rounding_of_sums * means[1]) return std::nullopt;
-  const Eigen::Index k = (means.size() - 2) / 3;
-  Eigen::VectorXd indices(2 * k);
-  for (Eigen::Index i = 0; i < k; ++i) {
-    // The mean of (b - mean) (c - a), so that every resample is centred on its own mean.
-    indices[2 * i] = (means[2 + 3 * i] - mean * means[3 + 3 * i]) / variance;
-    indices[2 * i + 1] = means[4 + 3 * i] / variance;
-  }
-  return indices;
-}
-
-std::size_t rows_of_sample(Answers answers, int factors) {
-  if (factors < 1) throw std::invalid_argument("Sobol' indices need a factor");
-  const auto rows = static_cast<std::size_t>(factors) + 2;
-  if (answers.size() % rows != 0) {
-    throw std::invalid_argument("the answers are not those of whole base samples");
-  }
-  require_finite(answers);
   return rows;
 }
 
 }  // namespace
 
-SobolIndices sobol_indices(Answers answers, int factors, const Resampling& resampling) {
-  const std::size_t rows = rows_of_sample(answers, factors);
-  Eigen::MatrixXd complete = complete_samples(answers, rows);
+SobolIndices sobol_indices(const AnswersBySeed& answers, SaltelliRows rows,
+                           const Resampling& resampling) {
+  const std::size_t of_sample = rows_of_sample(answers, rows);
+  std::vector<Eigen::MatrixXd> complete = complete_samples(answers, of_sample);
   SobolIndices result;
-  result.base_samples = static_cast<int>(complete.cols());
-  result.left_out = static_cast<int>(answers.size() / rows) - result.base_samples;
+  result.base_samples = static_cast<int>(complete.front().cols());
+  result.left_out = static_cast<int>(answers.front().size() / of_sample) - result.base_samples;
   if (result.base_samples < 2) {
     result.undefined = "fewer than two base samples have all their answers";
     return result;
   }
-  if (constant(complete)) {
+  if (std::ranges::all_of(complete, constant)) {
     result.undefined = "the answers to the base samples do not vary";
     return result;
   }
-  const Eigen::Index b = complete.rows() - 1;
-  complete.array() -= (complete.row(0).mean() + complete.row(b).mean()) / 2.0;
-  const std::vector<IndexEstimate> estimates = bootstrap(moments(complete), indices, resampling);
-  for (std::size_t i = 0; i < estimates.size(); i += 2) {
-    result.factors.push_back({.first_order = estimates[i], .total = estimates[i + 1]});
+  for (Eigen::MatrixXd& of_seed : complete) {
+    of_seed.array() -= (of_seed.row(0).mean() + of_seed.row(of_seed.rows() - 1).mean()) / 2.0;
+  }
+  const SobolMoments moments(rows, static_cast<int>(answers.size()));
+  const Eigen::MatrixXd samples = moments.of(complete);
+  const OfWeightedMeans of_means = [&](const Eigen::VectorXd& means, const Eigen::VectorXd& seeds) {
+    return moments.indices(means, seeds);
+  };
+  const auto seeds = static_cast<Eigen::Index>(answers.size());
+  if (!of_means(samples.rowwise().mean(), Eigen::VectorXd::Ones(seeds))) {
+    result.undefined = "the mean over seeds does not vary, for all that the seeds show";
+    return result;
+  }
+  const std::vector<IndexEstimate> estimates =
+      crossed_bootstrap(samples, seeds, of_means, resampling);
+  std::size_t at = 0;
+  for (int i = 0; i < rows.factors; ++i, at += 2) {
+    result.factors.push_back({.first_order = estimates[at], .total = estimates[at + 1]});
+  }
+  if (!rows.second_order) return result;
+  for (int i = 0; i < rows.factors; ++i) {
+    for (int j = i + 1; j < rows.factors; ++j) result.pairs.push_back({i, j, estimates[at++]});
   }
   return result;
 }
 
-std::vector<SobolIndices> sobol_convergence(Answers answers, int factors,
+std::vector<SobolIndices> sobol_convergence(const AnswersBySeed& answers, SaltelliRows rows,
                                             const Resampling& resampling) {
-  const std::size_t rows = rows_of_sample(answers, factors);
-  const std::size_t base_samples = answers.size() / rows;
+  const std::size_t of_sample = rows_of_sample(answers, rows);
+  const std::size_t base_samples = answers.front().size() / of_sample;
   std::vector<SobolIndices> steps;
   for (const std::size_t part : {8U, 4U, 2U, 1U}) {
     const std::size_t n = base_samples / part;
     if (n == 0) continue;
-    steps.push_back(sobol_indices(answers.first(n * rows), factors, resampling));
+    AnswersBySeed first = answers;
+    for (auto& of_seed : first) of_seed.resize(n * of_sample);
+    steps.push_back(sobol_indices(first, rows, resampling));
   }
   return steps;
 }

@@ -35,21 +35,53 @@ std::size_t analysed_group(const SensitivityRequest& request, const StudyPlan& p
   return place;
 }
 
-/// Cell by cell, in the order of the design.
-std::vector<std::optional<double>> answers_of(const StudyResults& results, std::size_t group,
-                                              const std::string& metric) {
+/// Of each replication, cell by cell in the order of the design.
+AnswersBySeed answers_of(const StudyResults& results, std::size_t group,
+                         const std::string& metric) {
   const PlannedGroup& planned = results.plan().groups()[group];
   const Question question{metric, "", "", 0.0};
-  std::vector<std::optional<double>> answers;
-  for (std::size_t cell = 0; cell < planned.cells(); ++cell) {
-    std::optional<double> sum = 0.0;
-    for (int k = 0; k < planned.replications(); ++k) {
-      const auto answer = results.answer(question, results.plan().index(group, cell, k)).bounded();
-      sum = sum && answer ? std::optional(*sum + *answer) : std::nullopt;
+  AnswersBySeed answers(static_cast<std::size_t>(planned.replications()));
+  for (int k = 0; k < planned.replications(); ++k) {
+    for (std::size_t cell = 0; cell < planned.cells(); ++cell) {
+      answers[static_cast<std::size_t>(k)].push_back(
+          results.answer(question, results.plan().index(group, cell, k)).bounded());
     }
-    answers.push_back(sum ? std::optional(*sum / planned.replications()) : std::nullopt);
   }
   return answers;
+}
+
+/// Their means over replications; missing where that of any replication is.
+std::vector<std::optional<double>> means_of(const AnswersBySeed& answers) {
+  std::vector<std::optional<double>> means = answers.front();
+  for (std::size_t k = 1; k < answers.size(); ++k) {
+    for (std::size_t cell = 0; cell < means.size(); ++cell) {
+      const std::optional<double>& y = answers[k][cell];
+      means[cell] = means[cell] && y ? std::optional(*means[cell] + *y) : std::nullopt;
+    }
+  }
+  for (auto& mean : means) {
+    if (mean) *mean /= static_cast<double>(answers.size());
+  }
+  return means;
+}
+
+SaltelliRows saltelli_rows(const PlannedGroup& planned) {
+  const Setting* second_order = planned.group().design.setting().options().find("second_order");
+  return {static_cast<int>(planned.axes().size()),
+          second_order != nullptr && std::get<bool>(second_order->value)};
+}
+
+std::string note_on_seeds(int seeds) {
+  if (seeds == 1) {
+    return "Of one seed: what it does together with a factor counts as the factor's. From two "
+           "replications on, indices are those of the mean over seeds, from three on with the "
+           "scatter of seeds in their intervals.";
+  }
+  if (seeds == 2) {
+    return "Of the mean over 2 seeds; their scatter is not in the intervals, which takes three.";
+  }
+  return "Of the mean over " + std::to_string(seeds) +
+         " seeds; intervals are from resamples of base samples and seeds.";
 }
 
 Cell cell_of(const IndexEstimate& estimate) {
@@ -72,6 +104,7 @@ class IndexTable {
   std::vector<Table> tables() {
     const bool sobol = planned().group().design.kind() == "saltelli";
     std::vector<Table> tables{sobol ? sobol_table() : morris_table()};
+    if (sobol && saltelli_rows(planned()).second_order) tables.push_back(pair_table());
     if (sobol && request_.convergence) tables.push_back(convergence_table());
     return tables;
   }
@@ -85,8 +118,6 @@ class IndexTable {
     return {heading_of(known_value(metric, request_.origin)), planned().axes()[factor].name()};
   }
 
-  int factors() const { return static_cast<int>(planned().axes().size()); }
-
   Table sobol_table() const {
     Table table{
         request_.name,
@@ -98,10 +129,11 @@ class IndexTable {
          {.header = "total"},
          {.header = "", .name = "total_note"}},
         {},
-        {"First-order (Saltelli) and total (Jansen) indices with 95 % bootstrap intervals."}};
+        {"First-order (Saltelli) and total (Jansen) indices with 95 % bootstrap intervals. " +
+         note_on_seeds(planned().replications())}};
     for (const std::string& metric : request_.metrics) {
       const auto answers = answers_of(results_, group_, metric);
-      const SobolIndices indices = sobol_indices(answers, factors(), resampling());
+      const SobolIndices indices = sobol_indices(answers, saltelli_rows(planned()), resampling());
       for (std::size_t f = 0; f < indices.factors.size(); ++f) {
         std::vector<Cell> cells = row(metric, f);
         cells.push_back(cell_of(indices.factors[f].first_order));
@@ -112,6 +144,32 @@ class IndexTable {
       }
       table.notes.push_back(
           note(metric, indices.base_samples, indices.left_out, "base samples", indices.undefined));
+    }
+    return table;
+  }
+
+  Table pair_table() const {
+    Table table{request_.name + "_second_order",
+                request_.caption.empty() ? "" : request_.caption + ": pairs of factors",
+                {{.header = "metric"},
+                 {.header = "factor"},
+                 {.header = "and factor", .name = "and_factor"},
+                 {.header = "second order", .name = "second_order"},
+                 {.header = "", .name = "second_order_note"}},
+                {},
+                {"What two factors do together, beyond what each does by itself (Saltelli 2002), "
+                 "with 95 % bootstrap intervals. " +
+                 note_on_seeds(planned().replications())}};
+    for (const std::string& metric : request_.metrics) {
+      const auto answers = answers_of(results_, group_, metric);
+      for (const SobolPair& pair :
+           sobol_indices(answers, saltelli_rows(planned()), resampling()).pairs) {
+        std::vector<Cell> cells = row(metric, static_cast<std::size_t>(pair.first));
+        cells.emplace_back(planned().axes()[static_cast<std::size_t>(pair.second)].name());
+        cells.push_back(cell_of(pair.index));
+        cells.push_back(text_if_zero(pair.index));
+        table.rows.push_back(std::move(cells));
+      }
     }
     return table;
   }
@@ -129,7 +187,8 @@ class IndexTable {
                  "converged."}};
     for (const std::string& metric : request_.metrics) {
       const auto answers = answers_of(results_, group_, metric);
-      for (const SobolIndices& indices : sobol_convergence(answers, factors(), resampling())) {
+      for (const SobolIndices& indices :
+           sobol_convergence(answers, saltelli_rows(planned()), resampling())) {
         for (std::size_t f = 0; f < indices.factors.size(); ++f) {
           std::vector<Cell> cells = row(metric, f);
           cells.emplace_back(Estimate{.value = static_cast<double>(indices.base_samples),
@@ -156,8 +215,8 @@ class IndexTable {
         {"Elementary effects of a change by the whole range of the factor; mu* with its 95 % "
          "bootstrap interval."}};
     for (const std::string& metric : request_.metrics) {
-      const MorrisEffects effects =
-          morris_effects(planned().design(), answers_of(results_, group_, metric), resampling());
+      const MorrisEffects effects = morris_effects(
+          planned().design(), means_of(answers_of(results_, group_, metric)), resampling());
       for (std::size_t f = 0; f < effects.factors.size(); ++f) {
         const MorrisEffect& effect = effects.factors[f];
         std::vector<Cell> cells = row(metric, f);

@@ -150,6 +150,23 @@ TEST(Saltelli, HasRowsAThenAWithOneValueOfBEachThenB) {
   }
 }
 
+TEST(Saltelli, OfPairsHasRowsBWithOneValueOfABeforeB) {
+  Setting table;
+  assign(table, "base_samples", {.value = std::int64_t{8}});
+  assign(table, "second_order", {.value = true});
+  const Eigen::MatrixXd drawn =
+      Registry<Design>::instance().make("saltelli", table, "design.saltelli")->cells(continuous(2));
+  const Eigen::MatrixXd plain = cells("saltelli", {{"base_samples", 8}}, continuous(2));
+  ASSERT_EQ(drawn.rows(), 8 * 6);
+  for (Eigen::Index j = 0; j < 8; ++j) {
+    const Eigen::RowVectorXd a = plain.row(4 * j), b = plain.row(4 * j + 3);
+    EXPECT_EQ(drawn.middleRows(6 * j, 3), plain.middleRows(4 * j, 3));
+    EXPECT_EQ(drawn.row(6 * j + 3), Eigen::RowVector2d(a[0], b[1]));
+    EXPECT_EQ(drawn.row(6 * j + 4), Eigen::RowVector2d(b[0], a[1]));
+    EXPECT_EQ(drawn.row(6 * j + 5), b);
+  }
+}
+
 TEST(Saltelli, OfFewerBaseSamplesIsTheBeginning) {
   EXPECT_EQ(cells("saltelli", {{"base_samples", 4}}, continuous(2)),
             cells("saltelli", {{"base_samples", 32}}, continuous(2)).topRows(4 * 4));

@@ -27,6 +27,16 @@ inline Eigen::MatrixXd saltelli(std::int64_t base_samples, int factors, std::int
   return draw("saltelli", "base_samples", base_samples, factors, seed);
 }
 
+/// With the rows for indices of pairs.
+inline Eigen::MatrixXd saltelli_of_pairs(std::int64_t base_samples, int factors) {
+  Setting table;
+  assign(table, "base_samples", {.value = base_samples});
+  assign(table, "second_order", {.value = true});
+  return Registry<Design>::instance()
+      .make("saltelli", table, "design.saltelli")
+      ->cells(std::vector<int>(static_cast<std::size_t>(factors), 0));
+}
+
 /// A function of one cell, whose factors lie in [0, 1].
 using Function = std::function<double(const Eigen::RowVectorXd&)>;
 
@@ -40,6 +50,7 @@ inline std::vector<std::optional<double>> answers(const Eigen::MatrixXd& cells, 
 struct Known {
   Function f;
   std::vector<double> first_order, total;
+  std::vector<double> pairs;  ///< (1, 2), (1, 3) ... (2, 3) ...
 };
 
 /// Ishigami and Homma 1990, of factors from -pi to pi.
@@ -54,7 +65,8 @@ inline Known ishigami(double a, double b) {
             return std::sin(x[0]) * (1.0 + b * std::pow(x[2], 4)) + a * std::pow(std::sin(x[1]), 2);
           },
           {v1 / v, v2 / v, 0.0},
-          {(v1 + v13) / v, v2 / v, v13 / v}};
+          {(v1 + v13) / v, v2 / v, v13 / v},
+          {0.0, v13 / v, 0.0}};
 }
 
 /// Sobol' g: the product of (|4 x - 2| + a) / (1 + a) (Saltelli and Sobol' 1995).
@@ -67,6 +79,11 @@ inline Known sobol_g(const std::vector<double>& a) {
     const double vi = 1.0 / (3.0 * (1.0 + ai) * (1.0 + ai));
     g.first_order.push_back(vi / v);
     g.total.push_back(vi * (v + 1.0) / (1.0 + vi) / v);
+  }
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    for (std::size_t j = i + 1; j < a.size(); ++j) {
+      g.pairs.push_back(g.first_order[i] * g.first_order[j] * v);
+    }
   }
   g.f = [a](const Eigen::RowVectorXd& x) {
     double product = 1.0;
@@ -85,6 +102,7 @@ inline Known linear(const std::vector<double>& c) {
   for (const double ci : c) squares += ci * ci;
   for (const double ci : c) known.first_order.push_back(ci * ci / squares);
   known.total = known.first_order;
+  known.pairs.assign(c.size() * (c.size() - 1) / 2, 0.0);
   known.f = [c](const Eigen::RowVectorXd& x) {
     double sum = 0.0;
     for (std::size_t i = 0; i < c.size(); ++i) sum += c[i] * x[static_cast<Eigen::Index>(i)];

@@ -16,6 +16,15 @@ using namespace test;  // NOLINT: the functions are few, and all of them are mea
 
 using List = std::vector<std::optional<double>>;
 
+SobolIndices sobol_indices(const List& of_one_seed, int factors,
+                           const Resampling& resampling = {}) {
+  return analysis::sobol_indices({of_one_seed}, {factors}, resampling);
+}
+
+std::vector<SobolIndices> sobol_convergence(const List& of_one_seed, int factors) {
+  return analysis::sobol_convergence({of_one_seed}, {factors});
+}
+
 bool covers(const IndexEstimate& estimate, double truth) {
   return estimate.interval && estimate.interval->low <= truth && truth <= estimate.interval->high;
 }
