@@ -45,7 +45,7 @@ void check_study(const fs::path& file) {
   std::size_t cells = 0;
   for (const analysis::PlannedGroup& group : plan.groups()) cells += group.cells();
   fmt::print("{}: a study of {} trials in {} cells; tables: {}, claims: {}\n", file.string(),
-             plan.trials(), cells, tables, plan.study().claims.size());
+             plan.trials(), cells, tables, plan.study().claims.claims.size());
   for (const analysis::PlannedGroup& group : plan.groups()) {
     std::string factors;
     for (const analysis::Axis& axis : group.axes()) {

@@ -1,18 +1,17 @@
 #include <fmt/core.h>
 
-#include <filesystem>
-#include <map>
+#include <algorithm>
 
 #include "commands.hpp"
+#include "shoal/analysis/study/claim_text.hpp"
 #include "shoal/analysis/study/study_files.hpp"
 #include "shoal/analysis/study/study_tables.hpp"
 
 namespace shoal::program {
 namespace {
 
-using analysis::JudgedClaim;
+using analysis::Judgement;
 using analysis::StudyResults;
-using analysis::Verdict;
 
 void print_state(const StudyResults& results) {
   const std::size_t failed = results.count(StudyResults::State::failed);
@@ -21,20 +20,54 @@ void print_state(const StudyResults& results) {
   if (missing > 0) fmt::print("{} trials have not run yet; shoal sweep runs them\n", missing);
 }
 
-std::string count_text(const std::vector<JudgedClaim>& claims) {
-  std::map<Verdict, int> counts;
-  for (const JudgedClaim& claim : claims) ++counts[claim.result.verdict];
-  return fmt::format("{} claims: {} reproduced, {} contradicted, {} undecided", claims.size(),
-                     counts[Verdict::reproduced], counts[Verdict::contradicted],
-                     counts[Verdict::undecided]);
-}
-
 void write_all(const StudyResults& results, const std::vector<analysis::Table>& tables,
-               const std::vector<JudgedClaim>& claims, const std::string& folder) {
+               const Judgement& claims, const std::string& folder) {
   const std::size_t written = analysis::write_tables(tables, claims, folder);
   print_state(results);
   fmt::print("written: {}/tables, {} tables as .tex, .csv and .md\n", folder, written);
-  if (!claims.empty()) fmt::print("{} (shoal claims {})\n", count_text(claims), folder);
+  if (claims.statements.empty()) return;
+  for (const std::string& line : analysis::count_lines(claims)) {
+    fmt::print("{} (shoal claims {})\n", line, folder);
+  }
+}
+
+/// One verdict a column, each as wide as the longest.
+std::string verdicts(const std::vector<std::string>& texts) {
+  std::string line;
+  for (const std::string& text : texts) line += fmt::format("{:<14}", text);
+  return line;
+}
+
+void print_claim(const analysis::JudgedClaim& part, const Judgement& judgement) {
+  const std::string margin(14 * judgement.columns.size(), ' ');
+  for (std::size_t c = 0; c < judgement.columns.size(); ++c) {
+    const std::string column = judgement.side_by_side() ? judgement.columns[c] + ": " : "";
+    for (const std::string& line : analysis::claim_lines(part, c, judgement)) {
+      fmt::print("{}  {}{}\n", margin, column, line);
+    }
+  }
+}
+
+void print_statement(const analysis::JudgedStatement& statement, const Judgement& judgement) {
+  std::vector<std::string> texts;
+  for (std::size_t c = 0; c < judgement.columns.size(); ++c) {
+    texts.push_back(statement.verdict_text(c));
+  }
+  const std::string number = statement.number ? fmt::format("{:<4}", statement.number) : "";
+  fmt::print("{}{}{}  {}\n", verdicts(texts), number, statement.section, statement.says);
+  const std::string margin(14 * judgement.columns.size(), ' ');
+  if (!statement.not_tested.empty()) fmt::print("{}  {}\n", margin, statement.not_tested);
+  for (const analysis::JudgedClaim& part : statement.parts) {
+    if (statement.parts.size() > 1) {
+      std::vector<std::string> of_part;
+      for (std::size_t c = 0; c < judgement.columns.size(); ++c) {
+        const auto verdict = part.verdict(c);
+        of_part.push_back("  " + (verdict ? std::string(name_of(*verdict)) : "-"));
+      }
+      fmt::print("{}part: {}\n", verdicts(of_part), part.claim.says);
+    }
+    print_claim(part, judgement);
+  }
 }
 
 }  // namespace
@@ -42,7 +75,7 @@ void write_all(const StudyResults& results, const std::vector<analysis::Table>& 
 void tables(const std::string& folder, bool summary) {
   const StudyResults results = analysis::read_results(analysis::stored_plan(folder), folder);
   const std::vector<analysis::Table> tables = analysis::study_tables(results);
-  const std::vector<JudgedClaim> claims = analysis::judged_claims(results);
+  const Judgement claims = analysis::judged_claims(results, folder);
   // After a sweep, the first table: the one that the study begins with.
   const std::size_t shown = summary ? std::min<std::size_t>(1, tables.size()) : tables.size();
   for (std::size_t i = 0; i < shown; ++i) {
@@ -54,26 +87,18 @@ void tables(const std::string& folder, bool summary) {
 
 void claims(const std::string& folder) {
   const StudyResults results = analysis::read_results(analysis::stored_plan(folder), folder);
-  const std::vector<JudgedClaim> judged = analysis::judged_claims(results);
-  if (judged.empty()) {
+  const Judgement judgement = analysis::judged_claims(results, folder);
+  if (judgement.statements.empty()) {
     throw InputError(folder +
                      ": the study has no claims; name a file of them with claims = \"...\"");
   }
-  for (const JudgedClaim& each : judged) {
-    fmt::print("{:<13} {}  {}\n", name_of(each.result.verdict), each.claim.section,
-               each.claim.says);
-    for (const analysis::ContrastResult& contrast : each.result.contrasts) {
-      fmt::print("{:14}{}\n", "", analysis::contrast_text(contrast));
-    }
-    if (each.result.replications_needed) {
-      fmt::print("{:14}about {} replications would decide\n", "", *each.result.replications_needed);
-    }
-    if (each.result.verdict == Verdict::contradicted && !each.claim.cause.empty()) {
-      fmt::print("{:14}likely cause: {}\n", "", each.claim.cause);
-    }
+  if (judgement.side_by_side()) fmt::print("{}\n", verdicts(judgement.columns));
+  for (const analysis::JudgedStatement& statement : judgement.statements) {
+    print_statement(statement, judgement);
   }
   print_state(results);
-  fmt::print("{}\n", count_text(judged));
+  fmt::print("{}\n", analysis::verdict_note(judgement));
+  for (const std::string& line : analysis::count_lines(judgement)) fmt::print("{}\n", line);
 }
 
 }  // namespace shoal::program

@@ -117,22 +117,42 @@ class Sweep {
   std::chrono::steady_clock::time_point began_ = std::chrono::steady_clock::now();
 };
 
+void append_claim(py::list& rows, const analysis::JudgedStatement& statement,
+                  const analysis::JudgedClaim& part, const std::string& name, std::size_t column) {
+  const analysis::JudgedColumn& judged = *part.columns[column];
+  for (const analysis::Contrast& contrast : judged.result.contrasts) {
+    py::dict row;
+    row["statement"] = statement.number;
+    row["section"] = statement.section;
+    row["claim"] = part.claim.says;
+    row["column"] = name;
+    row["statement_verdict"] = statement.verdict_text(column);
+    row["verdict"] = name_of(judged.result.verdict());
+    row["contrast"] = contrast.title;
+    row["contrast_verdict"] = name_of(judged.result.verdict_of(contrast));
+    row["claimed"] = contrast.claimed;
+    row["n"] = contrast.n;
+    row["trials"] = contrast.trials;
+    row["never_reached"] = contrast.never_reached;
+    row["estimate"] = contrast.estimate;
+    row["low"] = contrast.interval ? std::optional(contrast.interval->low) : std::nullopt;
+    row["high"] = contrast.interval ? std::optional(contrast.interval->high) : std::nullopt;
+    row["p_holds"] = contrast.p_holds;
+    row["p_fails"] = contrast.p_fails;
+    row["corrected_p"] = judged.corrected_p;
+    rows.append(row);
+  }
+}
+
 py::list claims(const std::string& folder) {
   const auto results = analysis::read_results(analysis::stored_plan(folder), folder);
   py::list rows;
-  for (const analysis::JudgedClaim& judged : analysis::judged_claims(results)) {
-    for (const analysis::ContrastResult& contrast : judged.result.contrasts) {
-      py::dict row;
-      row["section"] = judged.claim.section;
-      row["claim"] = judged.claim.says;
-      row["verdict"] = name_of(judged.result.verdict);
-      row["contrast"] = contrast.title;
-      row["contrast_verdict"] = name_of(contrast.verdict);
-      row["n"] = contrast.n;
-      row["mean"] = contrast.mean;
-      row["low"] = contrast.low;
-      row["high"] = contrast.high;
-      rows.append(row);
+  const analysis::Judgement judgement = analysis::judged_claims(results, folder);
+  for (const analysis::JudgedStatement& statement : judgement.statements) {
+    for (const analysis::JudgedClaim& part : statement.parts) {
+      for (std::size_t c = 0; c < judgement.columns.size(); ++c) {
+        if (part.columns[c]) append_claim(rows, statement, part, judgement.columns[c], c);
+      }
     }
   }
   return rows;
@@ -192,8 +212,8 @@ void add_studies(py::module_& module) {
       "write_tables",
       [](const std::string& folder) {
         const auto results = analysis::read_results(analysis::stored_plan(folder), folder);
-        analysis::write_tables(analysis::study_tables(results), analysis::judged_claims(results),
-                               folder);
+        analysis::write_tables(analysis::study_tables(results),
+                               analysis::judged_claims(results, folder), folder);
       },
       py::arg("folder"));
   module.def(

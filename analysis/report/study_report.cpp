@@ -5,6 +5,7 @@
 
 #include "shoal/analysis/report/packed.hpp"
 #include "shoal/analysis/report/page.hpp"
+#include "shoal/analysis/study/claim_text.hpp"
 #include "shoal/analysis/study/study_files.hpp"
 #include "shoal/analysis/study/study_tables.hpp"
 #include "shoal/core/whole_file.hpp"
@@ -15,20 +16,39 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
-Json claim(const JudgedClaim& judged) {
-  Json contrasts = Json::array();
-  for (const ContrastResult& contrast : judged.result.contrasts) {
-    contrasts.push_back(contrast_text(contrast));
+Json text_of(const std::optional<Verdict>& verdict) {
+  return verdict ? Json(name_of(*verdict)) : Json("-");
+}
+
+/// A claim with what stands below it, column by column.
+Json part(const JudgedClaim& judged, const Judgement& judgement) {
+  Json verdicts = Json::array(), lines = Json::array();
+  for (std::size_t c = 0; c < judgement.columns.size(); ++c) {
+    verdicts.push_back(text_of(judged.verdict(c)));
+    lines.push_back(claim_lines(judged, c, judgement));
   }
-  const bool contradicted = judged.result.verdict == Verdict::contradicted;
-  return {{"section", judged.claim.section},
-          {"says", judged.claim.says},
-          {"verdict", name_of(judged.result.verdict)},
-          {"contrasts", contrasts},
-          {"cause", contradicted ? judged.claim.cause : ""},
-          {"replications_needed", judged.result.replications_needed
-                                      ? Json(*judged.result.replications_needed)
-                                      : Json(nullptr)}};
+  return {{"says", judged.claim.says}, {"verdicts", verdicts}, {"lines", lines}};
+}
+
+Json claims(const Judgement& judgement) {
+  Json statements = Json::array();
+  for (const JudgedStatement& statement : judgement.statements) {
+    Json verdicts = Json::array(), parts = Json::array();
+    for (std::size_t c = 0; c < judgement.columns.size(); ++c) {
+      verdicts.push_back(statement.verdict_text(c));
+    }
+    for (const JudgedClaim& judged : statement.parts) parts.push_back(part(judged, judgement));
+    statements.push_back({{"number", statement.number},
+                          {"section", statement.section},
+                          {"says", statement.says},
+                          {"not_tested", statement.not_tested},
+                          {"verdicts", verdicts},
+                          {"parts", parts}});
+  }
+  return {{"columns", judgement.columns},
+          {"counts", count_lines(judgement)},
+          {"note", verdict_note(judgement)},
+          {"statements", statements}};
 }
 
 /// Which trials are missing from the numbers, and why.
@@ -83,8 +103,7 @@ void write_study_report(const fs::path& folder) {
   for (const Table& table : study_tables(results)) {
     data["tables"].push_back({{"name", table.name}, {"html", print(table, TableFormat::html)}});
   }
-  data["claims"] = Json::array();
-  for (const JudgedClaim& judged : judged_claims(results)) data["claims"].push_back(claim(judged));
+  data["claims"] = claims(judged_claims(results, folder));
   write_whole_file(folder / "report.html", whole_page("study.html", data));
 }
 

@@ -2,110 +2,22 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
-#include <map>
 
-#include "shoal/analysis/statistics/intervals.hpp"
 #include "shoal/analysis/statistics/power.hpp"
 #include "shoal/analysis/study/confidence.hpp"
-#include "shoal/analysis/study/slices.hpp"
-#include "shoal/core/text.hpp"
 
 namespace shoal::analysis {
 namespace {
 
-std::vector<std::size_t> groups_of(const Claim& claim, const StudyPlan& plan) {
-  if (claim.groups.empty() && plan.groups().size() > 1) {
-    throw InputError(claim.origin, "the study has several groups; say which the claim is about");
-  }
-  return places_of_groups(claim.groups, plan, claim.origin);
-}
+constexpr double level = 1.0 - confidence;
 
-void require_columns(const CellSelection& selection, const PlannedGroup& group,
-                     const Origin& origin) {
-  for (const auto& [name, labels] : selection.wanted()) {
-    if (std::ranges::find(group.columns(), name) != group.columns().end()) continue;
-    const std::string owner = group.name().empty() ? "the study" : "the group " + group.name();
-    throw InputError(origin,
-                     owner + " has no factor \"" + name + '"' + suggestion(name, group.columns()));
-  }
-}
-
-/// The cells that `where` leaves, parted by the factors that the claim does not compare.
-std::vector<ClaimScope> scopes(const Claim& claim, const Question& question,
-                               const StudyResults& results, const ClaimTest& test) {
-  const CellSelection where(claim.where);
-  const std::vector<std::string> compared = test.compared();
-  std::vector<ClaimScope> scopes;
-  const std::vector<std::size_t> groups = groups_of(claim, results.plan());
-  for (const std::size_t g : groups) {
-    const PlannedGroup& group = results.plan().groups()[g];
-    require_columns(where, group, claim.origin);
-    std::map<std::string, std::size_t> known;  // title of the fixed factors -> scope
-    for (std::size_t cell = 0; cell < group.cells(); ++cell) {
-      if (!where.holds(group.columns(), group.labels(cell))) continue;
-      std::string title = groups.size() > 1 ? group.name() : "";
-      for (std::size_t i = 0; i < group.columns().size(); ++i) {
-        const std::string& column = group.columns()[i];
-        if (std::ranges::find(compared, column) != compared.end() || where.names_one(column))
-          continue;
-        title += (title.empty() ? "" : ", ") + group.labels(cell)[i];
-      }
-      const auto [place, fresh] = known.emplace(title, scopes.size());
-      if (fresh) scopes.push_back({results, question, g, {}, title});
-      scopes[place->second].cells.push_back(cell);
-    }
-  }
-  if (scopes.empty()) throw InputError(claim.origin, "no cell of the study is as `where` says");
-  return scopes;
-}
-
-/// Whether each number is as claimed: it takes one to contradict, and all to reproduce.
-ContrastResult judged_each(const Contrast& contrast) {
-  const auto [least, greatest] = std::ranges::minmax(contrast.numbers);
-  const bool outside =
-      (contrast.low && least < *contrast.low) || (contrast.high && greatest > *contrast.high);
-  return {.title = contrast.title,
-          .n = static_cast<int>(contrast.numbers.size()),
-          .mean = statistics::mean(contrast.numbers),
-          .low = least,
-          .high = greatest,
-          .of_each = true,
-          .verdict = outside                 ? Verdict::contradicted
-                     : contrast.missing == 0 ? Verdict::reproduced
-                                             : Verdict::undecided};
-}
-
-ContrastResult judged(const Contrast& contrast, double corrected_level) {
-  if (contrast.of_each && !contrast.numbers.empty()) return judged_each(contrast);
-  ContrastResult result{.title = contrast.title, .n = static_cast<int>(contrast.numbers.size())};
-  if (contrast.numbers.empty()) return result;
-  result.mean = statistics::mean(contrast.numbers);
-  const auto interval = statistics::t_interval(contrast.numbers, confidence);
-  const auto wide = statistics::t_interval(contrast.numbers, corrected_level);
-  if (!interval || !wide) return result;
-  result.low = interval->low;
-  result.high = interval->high;
-  const bool inside = (!contrast.low || interval->low > *contrast.low) &&
-                      (!contrast.high || interval->high < *contrast.high);
-  const bool outside =
-      (contrast.low && wide->high < *contrast.low) || (contrast.high && wide->low > *contrast.high);
-  if (inside) result.verdict = Verdict::reproduced;
-  if (outside) result.verdict = Verdict::contradicted;
-  return result;
-}
-
-/// Replications that would tell the mean of a contrast from the nearer end of what is claimed.
-std::optional<int> needed(const Contrast& contrast) {
-  if (contrast.of_each || contrast.numbers.size() < 2) return std::nullopt;
-  const double mean = statistics::mean(contrast.numbers);
-  double distance = std::numeric_limits<double>::infinity();
-  for (const auto& end : {contrast.low, contrast.high}) {
-    if (end) distance = std::min(distance, std::abs(mean - *end));
-  }
-  const double sd = statistics::standard_deviation(contrast.numbers);
-  if (!statistics::standard_error(contrast.numbers) || distance == 0.0) return std::nullopt;
-  return statistics::replications_for(distance, sd, 1.0 - confidence, wanted_power);
+/// Replications that would show the mean of some numbers to be above 0 (or below).
+std::optional<int> needed(const std::vector<double>& numbers, double alpha) {
+  if (numbers.size() < 2 || !statistics::standard_error(numbers)) return std::nullopt;
+  const double mean = statistics::mean(numbers);
+  if (mean == 0.0) return std::nullopt;
+  return statistics::replications_for(mean, statistics::standard_deviation(numbers), alpha,
+                                      wanted_power);
 }
 
 }  // namespace
@@ -122,61 +34,66 @@ std::string_view name_of(Verdict verdict) {
   return "?";
 }
 
-std::size_t ClaimScope::cell(const CellSelection& selection) const {
-  const PlannedGroup& planned = results.plan().groups()[group];
-  require_columns(selection, planned, selection.origin());
-  std::optional<std::size_t> found;
-  for (const std::size_t candidate : cells) {
-    if (!selection.holds(planned.columns(), planned.labels(candidate))) continue;
-    if (found) {
-      throw InputError(selection.origin(), "several cells have " + selection.text() +
-                                               "; name more factors, here or in where");
+bool ClaimResult::inferred() const {
+  return std::ranges::any_of(contrasts, [](const Contrast& c) { return !c.of_each; });
+}
+
+Verdict ClaimResult::verdict() const {
+  if (p_holds * correction < level) return Verdict::reproduced;
+  return p_fails * correction < level ? Verdict::contradicted : Verdict::undecided;
+}
+
+Verdict ClaimResult::verdict_of(const Contrast& contrast) const {
+  const auto number = static_cast<double>(contrasts.size());
+  if (contrast.p_holds.value_or(1.0) * correction < level) return Verdict::reproduced;
+  return contrast.p_fails.value_or(1.0) * number * correction < level ? Verdict::contradicted
+                                                                      : Verdict::undecided;
+}
+
+bool ClaimResult::corrected_away() const {
+  return verdict() == Verdict::undecided && std::min(p_holds, p_fails) < level;
+}
+
+std::optional<int> ClaimResult::replications_needed() const {
+  if (verdict() != Verdict::undecided) return std::nullopt;
+  // It takes one contrast to contradict, and all to reproduce.
+  const double alpha = level / correction;
+  const double alpha_of_one = alpha / static_cast<double>(contrasts.size());
+  std::optional<int> to_fail;
+  int to_hold = 0;
+  bool may_hold = true;
+  for (const Contrast& contrast : contrasts) {
+    if (contrast.conditions.empty()) may_hold = false;
+    for (const std::vector<double>& numbers : contrast.conditions) {
+      const bool holds = statistics::mean(numbers) > 0.0;
+      const std::optional<int> n = needed(numbers, holds ? alpha : alpha_of_one);
+      may_hold &= holds && n;
+      if (holds && n) to_hold = std::max(to_hold, *n);
+      if (!holds && n) to_fail = std::min(to_fail.value_or(*n), *n);
     }
-    found = candidate;
   }
-  if (!found) {
-    throw InputError(selection.origin(),
-                     "no cell has " + selection.text() + (title.empty() ? "" : " with " + title));
-  }
-  return *found;
+  if (to_fail) return to_fail;
+  return may_hold ? std::optional(to_hold) : std::nullopt;
 }
 
-std::vector<std::optional<double>> ClaimScope::answers(std::size_t cell) const {
-  std::vector<std::optional<double>> answers;
-  for (int k = 0; k < results.plan().groups()[group].replications(); ++k) {
-    answers.push_back(results.answer(question, results.plan().index(group, cell, k)).bounded());
-  }
-  return answers;
-}
-
-ClaimResult test_claim(const Claim& claim, const StudyResults& results) {
-  const Question question{claim.metric, claim.series, "", claim.at_s};
-  const auto test = claim.test.make();
-  std::vector<Contrast> contrasts;
-  for (const ClaimScope& scope : scopes(claim, question, results, *test)) {
+ClaimResult test_claim(const TestedStatement& asked, const Setting& where,
+                       const StudyResults& results) {
+  const auto test = asked.test.make();
+  ClaimResult result;
+  for (const ClaimScope& scope : claim_scopes(asked, where, results, test->compared())) {
     for (Contrast& contrast : test->contrasts(scope)) {
       if (!scope.title.empty()) {
         contrast.title = scope.title + (contrast.title.empty() ? "" : ": " + contrast.title);
       }
-      contrasts.push_back(std::move(contrast));
+      result.contrasts.push_back(std::move(contrast));
     }
   }
-  const double corrected = 1.0 - (1.0 - confidence) / static_cast<double>(contrasts.size());
-  ClaimResult result;
-  int most = 0;
-  bool all = true, known = true;
-  for (const Contrast& contrast : contrasts) {
-    result.contrasts.push_back(judged(contrast, corrected));
-    const Verdict verdict = result.contrasts.back().verdict;
-    if (verdict == Verdict::contradicted) result.verdict = Verdict::contradicted;
-    all &= verdict == Verdict::reproduced;
-    if (verdict == Verdict::reproduced) continue;
-    const std::optional<int> n = needed(contrast);
-    known &= n.has_value();
-    most = std::max(most, n.value_or(0));
+  const auto number = static_cast<double>(result.contrasts.size());
+  result.p_holds = 0.0;
+  for (const Contrast& contrast : result.contrasts) {
+    result.p_holds = std::max(result.p_holds, contrast.p_holds.value_or(1.0));
+    result.p_fails = std::min(result.p_fails, number * contrast.p_fails.value_or(1.0));
   }
-  if (all) result.verdict = Verdict::reproduced;
-  if (result.verdict == Verdict::undecided && known) result.replications_needed = most;
   return result;
 }
 

@@ -1,54 +1,42 @@
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
-#include "shoal/analysis/study/claim_request.hpp"
-#include "shoal/analysis/study/results.hpp"
-#include "shoal/analysis/study/selection.hpp"
+#include "shoal/analysis/study/claim_scope.hpp"
 
 namespace shoal::analysis {
-
-/// The cells that a claim is about: those of one group in which only the factors it compares
-/// differ.
-struct ClaimScope {
-  const StudyResults& results;
-  const Question& question;
-  std::size_t group = 0;
-  std::vector<std::size_t> cells;
-  std::string title;  ///< of the factors that are the same in all these cells; "" for none
-
-  /// The only cell of the scope that a selection holds. Throws InputError if there is none, or
-  /// more.
-  std::size_t cell(const CellSelection& selection) const;
-  /// Of each replication, the answer, or nothing.
-  std::vector<std::optional<double>> answers(std::size_t cell) const;
-};
 
 enum class Verdict { reproduced, contradicted, undecided };
 std::string_view name_of(Verdict verdict);
 
-/// What the trials say to one contrast.
-struct ContrastResult {
-  std::string title;
-  int n = 0;
-  std::optional<double> mean, low, high;  ///< with Student's 95 % interval, or the range:
-  bool of_each = false;                   ///< of a claim on each number
-  Verdict verdict = Verdict::undecided;
-};
-
+/// What the trials say to a claim.
 struct ClaimResult {
-  Verdict verdict = Verdict::undecided;
-  std::vector<ContrastResult> contrasts;
+  std::vector<Contrast> contrasts;
+  /// Two-sided p-values: the claim holds if every contrast does; it fails if any does, corrected
+  /// for their number (Bonferroni). 1 where the trials say nothing.
+  double p_holds = 1.0, p_fails = 1.0;
+  /// What the smaller of the two is multiplied by, since other claims are tested, too.
+  double correction = 1.0;
+
+  /// Whether anything is inferred, and not only seen in each trial.
+  bool inferred() const;
+  Verdict verdict() const;
+  Verdict verdict_of(const Contrast& contrast) const;
+  /// Whether an undecided claim would be decided without the correction.
+  bool corrected_away() const;
   /// Where undecided: replications that would decide it with a chance of 80 %, if means and scatter
-  /// are as they seem; nothing if 10,000 would not.
-  std::optional<int> replications_needed;
+  /// are as they seem, at the level that the correction leaves; nothing if 10,000 would not, and
+  /// for claims that are not on means.
+  std::optional<int> replications_needed() const;
 };
 
-/// Tests a claim. It is reproduced if every contrast is (each interval lies where the claim holds),
-/// and contradicted if the interval of any lies where it does not, at a level corrected for their
-/// number (Bonferroni). Throws InputError if the claim names what the study does not have.
-ClaimResult test_claim(const Claim& claim, const StudyResults& results);
+/// Tests a claim in the cells that `where` leaves, not corrected for other claims. Throws
+/// InputError if the claim names what the study does not have.
+ClaimResult test_claim(const TestedStatement& asked, const Setting& where,
+                       const StudyResults& results);
 
 }  // namespace shoal::analysis

@@ -10,8 +10,10 @@ std::vector<std::string> needed_series(const Study& study) {
     names.insert(table.series.begin(), table.series.end());
     if (!table.against.empty()) names.insert(table.against);
   }
-  for (const Claim& claim : study.claims) {
-    if (!claim.series.empty()) names.insert(claim.series);
+  for (const TestedStatement* asked : tested_on_the_study(study.claims)) {
+    if (asked->series.empty()) continue;
+    names.insert(asked->series);
+    if (!asked->minus.empty()) names.insert(asked->minus);
   }
   return {names.begin(), names.end()};
 }

@@ -55,4 +55,28 @@ std::string CellSelection::text() const {
   return text;
 }
 
+std::vector<CellSelection> cell_selections(const Setting& setting, const std::string& name) {
+  const auto* entries = std::get_if<Setting::List>(&setting.value);
+  const bool none = entries ? entries->empty() : setting.is_table() && setting.table().empty();
+  if (none) {
+    throw InputError(setting.origin,
+                     name + " takes { factor = \"label\" }, or a list of such tables");
+  }
+  if (!entries) return {CellSelection(setting)};
+  std::vector<CellSelection> all;
+  for (const Setting& entry : *entries) all.emplace_back(entry);
+  return all;
+}
+
+std::vector<std::string> factors_of(const CellSelection& one,
+                                    const std::vector<CellSelection>& others) {
+  std::vector<std::string> factors = one.factors();
+  for (const CellSelection& other : others) {
+    for (const std::string& name : other.factors()) {
+      if (std::ranges::find(factors, name) == factors.end()) factors.push_back(name);
+    }
+  }
+  return factors;
+}
+
 }  // namespace shoal::analysis

@@ -39,4 +39,11 @@ class CellSelection {
   Origin origin_;
 };
 
+/// A table, or a list of them. `name` is what it is written as, for the message of InputError.
+std::vector<CellSelection> cell_selections(const Setting& setting, const std::string& name);
+
+/// Names of the factors of all these.
+std::vector<std::string> factors_of(const CellSelection& one,
+                                    const std::vector<CellSelection>& others);
+
 }  // namespace shoal::analysis

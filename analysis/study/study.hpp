@@ -107,7 +107,7 @@ struct Study {
   std::vector<ComparisonRequest> comparisons;
   std::vector<SensitivityRequest> sensitivities;
   FilePath claims_file;
-  std::vector<Claim> claims;
+  ClaimFile claims;
   std::vector<std::string> series;  ///< stored of every trial, besides those that tables name
   Setting written;                  ///< what all this was read from
   Origin origin;

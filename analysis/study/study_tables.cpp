@@ -1,10 +1,9 @@
 #include "shoal/analysis/study/study_tables.hpp"
 
-#include <fmt/format.h>
-
 #include <set>
 
 #include "shoal/analysis/study/cell_table.hpp"
+#include "shoal/analysis/study/claim_text.hpp"
 #include "shoal/analysis/study/difference_table.hpp"
 #include "shoal/analysis/study/needed_series.hpp"
 #include "shoal/analysis/study/sensitivity_table.hpp"
@@ -33,8 +32,10 @@ std::vector<std::string> needed_metrics(const Study& study) {
   for (const SensitivityRequest& sensitivity : study.sensitivities) {
     names.insert(sensitivity.metrics.begin(), sensitivity.metrics.end());
   }
-  for (const Claim& claim : study.claims) {
-    if (!claim.metric.empty()) names.insert(claim.metric);
+  for (const TestedStatement* asked : tested_on_the_study(study.claims)) {
+    if (asked->metric.empty()) continue;
+    names.insert(asked->metric);
+    if (!asked->minus.empty()) names.insert(asked->minus);
   }
   return {names.begin(), names.end()};
 }
@@ -58,7 +59,8 @@ StudyResults read_results(const StudyPlan& plan, const fs::path& folder) {
 
 std::size_t require_answerable(const StudyPlan& plan) {
   const StudyResults none(plan, needed_metrics(plan.study()), needed_series(plan.study()));
-  return study_tables(none).size() + (judged_claims(none).empty() ? 0 : 1);
+  require_answerable_claims(none);
+  return study_tables(none).size() + (plan.study().claims.empty() ? 0 : 1);
 }
 
 std::vector<Table> study_tables(const StudyResults& results) {
@@ -78,60 +80,9 @@ std::vector<Table> study_tables(const StudyResults& results) {
   return tables;
 }
 
-std::vector<JudgedClaim> judged_claims(const StudyResults& results) {
-  std::vector<JudgedClaim> judged;
-  for (const Claim& claim : results.plan().study().claims) {
-    judged.push_back({claim, test_claim(claim, results)});
-  }
-  return judged;
-}
-
-std::string contrast_text(const ContrastResult& contrast) {
-  std::string text = contrast.title.empty() ? "" : contrast.title + ": ";
-  if (!contrast.mean) return text + "no value";
-  if (contrast.of_each) {
-    return text +
-           fmt::format("from {:.4g} to {:.4g}, n = {}", *contrast.low, *contrast.high, contrast.n);
-  }
-  text += fmt::format("{:.4g}", *contrast.mean);
-  if (contrast.low) text += fmt::format(" [{:.4g}, {:.4g}]", *contrast.low, *contrast.high);
-  return text + fmt::format(", n = {}", contrast.n);
-}
-
-Table claims_table(const std::vector<JudgedClaim>& claims) {
-  Table table{"claims",
-              "Statements, and what the trials say to them",
-              {{.header = "section"},
-               {.header = "statement"},
-               {.header = "verdict"},
-               {.header = "numbers"}},
-              {},
-              {}};
-  for (const JudgedClaim& each : claims) {
-    std::string numbers;
-    for (const ContrastResult& contrast : each.result.contrasts) {
-      numbers += (numbers.empty() ? "" : "; ") + contrast_text(contrast);
-    }
-    if (each.result.replications_needed) {
-      numbers +=
-          fmt::format("; about {} replications would decide", *each.result.replications_needed);
-    }
-    if (each.result.verdict == Verdict::contradicted && !each.claim.cause.empty()) {
-      numbers += "; likely cause: " + each.claim.cause;
-    }
-    table.rows.push_back(
-        {each.claim.section, each.claim.says, std::string(name_of(each.result.verdict)), numbers});
-  }
-  table.notes.push_back(
-      "Means with 95 % intervals (Student). Reproduced: every interval lies where the statement "
-      "holds. "
-      "Contradicted: one lies where it does not, corrected for their number.");
-  return table;
-}
-
-std::size_t write_tables(std::vector<Table> tables, const std::vector<JudgedClaim>& claims,
+std::size_t write_tables(std::vector<Table> tables, const Judgement& claims,
                          const fs::path& folder) {
-  if (!claims.empty()) tables.push_back(claims_table(claims));
+  if (!claims.statements.empty()) tables.push_back(claims_table(claims));
   const fs::path place = folder / "tables";
   require_writable(place);
   std::set<fs::path> written;

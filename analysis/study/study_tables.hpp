@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "shoal/analysis/study/claim.hpp"
+#include "shoal/analysis/study/claim_verdicts.hpp"
 #include "shoal/analysis/study/results.hpp"
 #include "shoal/analysis/tables/table.hpp"
 
@@ -21,19 +21,9 @@ std::size_t require_answerable(const StudyPlan& plan);
 /// group: every factor in the rows, a few metrics in the columns. Throws InputError.
 std::vector<Table> study_tables(const StudyResults& results);
 
-struct JudgedClaim {
-  Claim claim;
-  ClaimResult result;
-};
-std::vector<JudgedClaim> judged_claims(const StudyResults& results);
-/// `rigid - pairwise: -1.2 [-3.4, 1.0], n = 5`.
-std::string contrast_text(const ContrastResult& contrast);
-/// Section, statement, verdict and numbers of every claim.
-Table claims_table(const std::vector<JudgedClaim>& claims);
-
 /// Writes tables/NAME.{tex,csv,md} into the folder, that of the claims (if any) last, and takes
 /// away what earlier tables left there. Returns how many tables there are.
-std::size_t write_tables(std::vector<Table> tables, const std::vector<JudgedClaim>& claims,
+std::size_t write_tables(std::vector<Table> tables, const Judgement& claims,
                          const std::filesystem::path& folder);
 
 }  // namespace shoal::analysis

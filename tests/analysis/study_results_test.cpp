@@ -7,7 +7,6 @@
 #include <map>
 
 #include "shoal/analysis/study/cell_table.hpp"
-#include "shoal/analysis/study/claim.hpp"
 #include "shoal/analysis/study/difference_table.hpp"
 #include "shoal/scenarios/toml_file.hpp"
 #include "tests/core/settings.hpp"
@@ -64,105 +63,12 @@ class Stored : public testing::Test {
     return {plan, store, {"energy_mean_wh"}, {}};
   }
 
-  static ClaimResult judged(const std::string& test, const StudyResults& results,
-                            const std::string& more = "") {
-    const auto claims = read_claims(
-        scenarios::parse_toml("[[claim]]\nsays = \"so\"\nmetric = \"energy_mean_wh\"\n" + more +
-                                  "\n[claim.test]\n" + test,
-                              "claims.toml"));
-    return test_claim(claims.front(), results);
-  }
-
   std::filesystem::path folder_;
 };
 
 const std::string rigid = "rigid_registration", pairwise = "pairwise_referencing";
 const std::vector<double> low{10, 11, 12, 13, 14}, high{20, 21.5, 22, 23.5, 24},
     mixed{9, 12, 11, 14, 13};
-const std::string rigid_is_lower =
-    "kind = \"lower\"\nlower.cells = { behaviour = \"rigid_registration\" }\n"
-    "lower.than = [{ behaviour = \"pairwise_referencing\" }]\n";
-
-TEST_F(Stored, AClaimIsReproducedWhereEveryIntervalAgrees) {
-  const StudyResults all = results({{{rigid, "10"}, low},
-                                    {{pairwise, "10"}, high},
-                                    {{rigid, "20"}, low},
-                                    {{pairwise, "20"}, high}});
-  const ClaimResult result = judged(rigid_is_lower, all);
-  EXPECT_EQ(result.verdict, Verdict::reproduced);
-  ASSERT_EQ(result.contrasts.size(), 2u);
-  EXPECT_NEAR(*result.contrasts[0].mean, -10.2, 1e-12);
-  EXPECT_EQ(result.contrasts[0].n, 5);
-  EXPECT_LT(*result.contrasts[0].high, 0.0);
-}
-
-TEST_F(Stored, AClaimIsUndecidedWhereOneIntervalSpansBoth) {
-  const StudyResults all = results({{{rigid, "10"}, low},
-                                    {{pairwise, "10"}, high},
-                                    {{rigid, "20"}, low},
-                                    {{pairwise, "20"}, mixed}});
-  const ClaimResult result = judged(rigid_is_lower, all);
-  EXPECT_EQ(result.verdict, Verdict::undecided);
-  EXPECT_EQ(result.contrasts[0].verdict, Verdict::reproduced);
-  EXPECT_EQ(result.contrasts[1].verdict, Verdict::undecided);
-  ASSERT_TRUE(result.replications_needed);
-  EXPECT_GT(*result.replications_needed, 5);
-}
-
-TEST_F(Stored, AClaimIsContradictedByOneIntervalOnTheOtherSide) {
-  const StudyResults all = results({{{rigid, "10"}, low},
-                                    {{pairwise, "10"}, high},
-                                    {{rigid, "20"}, high},
-                                    {{pairwise, "20"}, low}});
-  EXPECT_EQ(judged(rigid_is_lower, all).verdict, Verdict::contradicted);
-  EXPECT_EQ(judged(rigid_is_lower, all, "where = { period = 10 }").verdict, Verdict::reproduced);
-}
-
-TEST_F(Stored, ClaimsOnBoundsTrendsAndLikenessAreTested) {
-  const StudyResults all = results({{{rigid, "10"}, low},
-                                    {{rigid, "20"}, high},
-                                    {{pairwise, "10"}, low},
-                                    {{pairwise, "20"}, high}});
-  const auto verdict = [&](const std::string& test) { return judged(test, all).verdict; };
-  EXPECT_EQ(verdict("kind = \"trend\"\ntrend = { along = \"period\", direction = \"rises\" }"),
-            Verdict::reproduced);
-  EXPECT_EQ(verdict("kind = \"trend\"\ntrend = { along = \"period\", direction = \"falls\" }"),
-            Verdict::contradicted);
-  EXPECT_EQ(verdict("kind = \"between\"\nbetween = { at_least = 5, at_most = 30 }"),
-            Verdict::reproduced);
-  EXPECT_EQ(verdict("kind = \"between\"\nbetween = { at_most = 15 }"), Verdict::contradicted);
-  EXPECT_EQ(verdict("kind = \"each_between\"\neach_between = { at_least = 5, at_most = 30 }"),
-            Verdict::reproduced);
-  // Equal values have no scatter to judge by.
-  EXPECT_EQ(verdict("kind = \"similar\"\nsimilar.cells = { behaviour = \"rigid_registration\" }\n"
-                    "similar.to = { behaviour = \"pairwise_referencing\" }"),
-            Verdict::undecided);
-}
-
-TEST_F(Stored, AClaimOnEachTrialIsContradictedByOneAndNotReproducedWithoutAll) {
-  const std::string at_most_14 = "kind = \"each_between\"\neach_between.at_most = 14";
-  StudyResults all = results({{{rigid, "10"}, low},
-                              {{rigid, "20"}, low},
-                              {{pairwise, "10"}, mixed},
-                              {{pairwise, "20"}, mixed}});
-  const ClaimResult reproduced = judged(at_most_14, all);
-  EXPECT_EQ(reproduced.verdict, Verdict::reproduced) << "its ends are included";
-  EXPECT_EQ(*reproduced.contrasts[0].low, 10.0);
-  EXPECT_EQ(*reproduced.contrasts[0].high, 14.0);
-  const std::string one_is_out = "kind = \"each_between\"\neach_between.at_most = 13.9";
-  EXPECT_EQ(judged(one_is_out, all).verdict, Verdict::contradicted);
-
-  all = results({{{rigid, "10"}, low}});  // the other cells failed
-  EXPECT_EQ(judged(at_most_14, all).verdict, Verdict::undecided);
-}
-
-TEST_F(Stored, ClaimsOnWhatTheStudyLacksAreRefused) {
-  const StudyResults all = results({{{rigid, "10"}, low}});
-  EXPECT_EQ(complaint_of([&] { judged(rigid_is_lower, all, "where = { perod = 10 }"); }),
-            "claims.toml:1: the study has no factor \"perod\"; did you mean \"period\"?");
-  EXPECT_EQ(complaint_of([&] { judged(rigid_is_lower, all, "where = { period = 15 }"); }),
-            "claims.toml:1: no cell of the study is as `where` says");
-}
 
 TEST_F(Stored, ATableShowsNAndFailuresAndTheBestOnlyIfATestTellsIt) {
   const StudyResults all =

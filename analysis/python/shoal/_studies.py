@@ -71,10 +71,13 @@ def write_tables(folder: str | os.PathLike[str]) -> None:
 
 
 def claims(folder: str | os.PathLike[str]) -> pandas.DataFrame:
-    """The claims of a study tested on what is stored: a row for each contrast."""
+    """The claims of a study tested on what is stored: a row for each contrast, in each column of
+    verdicts (a level of the factor that the file of claims compares side by side)."""
     import pandas
 
-    columns = ["section", "claim", "verdict", "contrast", "contrast_verdict", "n", "mean", "low", "high"]
+    columns = ["statement", "section", "claim", "column", "statement_verdict", "verdict", "contrast",
+               "contrast_verdict", "claimed", "n", "trials", "never_reached", "estimate", "low", "high",
+               "p_holds", "p_fails", "corrected_p"]
     return pandas.DataFrame(_shoal.claims(os.fspath(folder)), columns=columns)
 
 

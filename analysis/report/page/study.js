@@ -8,35 +8,53 @@ function showHead() {
   byId("title").textContent = data.title;
   const trials = data.done + data.failed + data.missing;
   byId("facts").textContent = [`${trials} trials`, `${data.tables.length} tables`,
-                               `${data.claims.length} claims`].join(" · ");
+                               `${data.claims.statements.length} statements`].join(" · ");
   const note = text => byId("notes").append(element("p", {}, text));
   if (data.failed) note(`${data.failed} trials failed; they are missing from the numbers.`);
   if (data.missing) note(`${data.missing} trials have not run yet; shoal sweep runs them.`);
 }
 
-function showClaims() {
-  byId("claims-section").hidden = data.claims.length === 0;
-  const count = verdict => data.claims.filter(claim => claim.verdict === verdict).length;
-  const kinds = ["reproduced", "contradicted", "undecided"];
-  byId("counts").textContent = kinds.map(kind => `${count(kind)} ${kind}`).join(", ");
-  for (const kind of ["all", ...kinds]) byId("verdicts").append(element("option", {value: kind}, kind));
-  for (const claim of data.claims) {
-    const said = element("td", {}, element("div", {}, claim.says));
-    const numbers = element("ul", {class: "contrasts"},
-                            ...claim.contrasts.map(text => element("li", {}, text)));
-    if (claim.replications_needed !== null) {
-      numbers.append(element("li", {}, `about ${claim.replications_needed} replications would decide`));
+/** A verdict for each column, which is named where there are several. */
+function verdictCell(verdicts) {
+  const {columns} = data.claims;
+  return element("td", {}, ...verdicts.map((verdict, i) => element("div", {},
+    ...(columns[i] ? [element("span", {class: "quiet"}, `${columns[i]} `)] : []),
+    element("span", {class: `verdict ${verdict.replace(" ", "-")}`}, verdict))));
+}
+
+function linesOf(part) {
+  const {columns} = data.claims;
+  return element("ul", {class: "contrasts"}, ...part.lines.flatMap((lines, i) =>
+    lines.map(line => element("li", {}, columns[i] ? `${columns[i]}: ${line}` : line))));
+}
+
+function statementRow(statement) {
+  const said = element("td", {}, element("div", {}, statement.says));
+  if (statement.not_tested) said.append(element("div", {class: "quiet"}, statement.not_tested));
+  for (const part of statement.parts) {
+    if (statement.parts.length > 1) {
+      said.append(element("div", {class: "part"}, `${part.says} (${part.verdicts.join(", ")})`));
     }
-    said.append(numbers);
-    if (claim.cause) said.append(element("div", {class: "cause"}, `Likely cause: ${claim.cause}`));
-    byId("claims").append(element("tr", {"data-verdict": claim.verdict},
-      element("td", {}, element("span", {class: `verdict ${claim.verdict}`}, claim.verdict)),
-      element("td", {class: "quiet"}, claim.section), said));
+    said.append(linesOf(part));
   }
+  const number = statement.number ? `${statement.number} ` : "";
+  return element("tr", {"data-verdicts": statement.verdicts.join("|")}, verdictCell(statement.verdicts),
+                 element("td", {class: "quiet"}, number + statement.section), said);
+}
+
+function showClaims() {
+  const {statements, counts, note} = data.claims;
+  byId("claims-section").hidden = statements.length === 0;
+  byId("counts").textContent = counts.join("; ");
+  byId("claims-note").textContent = note;
+  for (const kind of ["all", "reproduced", "contradicted", "undecided", "not tested"]) {
+    byId("verdicts").append(element("option", {value: kind}, kind));
+  }
+  for (const statement of statements) byId("claims").append(statementRow(statement));
   byId("verdicts").addEventListener("change", () => {
     const wanted = byId("verdicts").value;
     for (const row of byId("claims").children) {
-      row.hidden = wanted !== "all" && row.dataset.verdict !== wanted;
+      row.hidden = wanted !== "all" && !row.dataset.verdicts.split("|").includes(wanted);
     }
   });
 }

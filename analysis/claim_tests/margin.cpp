@@ -1,0 +1,90 @@
+#include "shoal/analysis/claim_tests/margin.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "shoal/analysis/statistics/sample.hpp"
+#include "shoal/core/text.hpp"
+
+namespace shoal::analysis {
+
+std::optional<std::string> Margin::complaint(const std::string& name) const {
+  if ((absolute > 0.0) != (percent > 0.0)) return std::nullopt;
+  return absolute > 0.0 ? "takes " + name + " or " + name + "_percent, not both"
+                        : "needs " + name + " or " + name + "_percent, above 0";
+}
+
+double Margin::beside(double other) const {
+  return absolute + percent / 100.0 * std::abs(other);
+}
+
+std::string Margin::text(const std::vector<double>& others, const std::string& unit) const {
+  if (percent == 0.0) return number_text(absolute, unit);
+  std::string text = fmt::format("{:g} % of the other's", percent);
+  if (others.empty()) return text;
+  return text + " (" + number_text(beside(statistics::mean(others)), unit) + ")";
+}
+
+Contrast directed_difference(const ClaimScope& scope, CellPlace ours, CellPlace theirs, double sign,
+                             const Margin& margin) {
+  const SharedNumbers numbers = scope.numbers({ours, theirs});
+  const std::vector<double> shown = differences(numbers.of[0], numbers.of[1]);
+  std::vector<double> beyond;
+  for (std::size_t k = 0; k < shown.size(); ++k) {
+    beyond.push_back(sign * shown[k] - margin.beside(numbers.of[1][k]));
+  }
+  Contrast contrast = counted(numbers, scope.asked.unit());
+  contrast.quantity = "difference";
+  contrast.claimed =
+      (sign > 0.0 ? "above " : "below -") + margin.text(numbers.of[1], contrast.unit);
+  judge(contrast, shown, {std::move(beyond)}, scope.asked.average);
+  set_against(contrast, sign);
+  return contrast;
+}
+
+void set_against(Contrast& contrast, double sign) {
+  contrast.against = Against::too_small;
+  if (!contrast.estimate) return;
+  const double low = contrast.interval ? contrast.interval->low : *contrast.estimate;
+  const double high = contrast.interval ? contrast.interval->high : *contrast.estimate;
+  if (sign > 0.0 ? high < 0.0 : low > 0.0) contrast.against = Against::opposite;
+}
+
+Contrast counted(const SharedNumbers& numbers, const std::string& unit) {
+  return {.unit = unit,
+          .n = static_cast<int>(numbers.count()),
+          .trials = numbers.trials,
+          .never_reached = numbers.never_reached};
+}
+
+std::vector<double> differences(const std::vector<double>& ours,
+                                const std::vector<double>& theirs) {
+  std::vector<double> differences;
+  for (std::size_t k = 0; k < ours.size(); ++k) differences.push_back(ours[k] - theirs[k]);
+  return differences;
+}
+
+std::string number_text(double number, const std::string& unit) {
+  return fmt::format("{:.4g}{}{}", number, unit.empty() ? "" : " ", unit);
+}
+
+void require_levels(const ClaimScope& scope, const std::string& factor, std::size_t count) {
+  for (const CellPlace place : scope.cells) {
+    const PlannedGroup& group = scope.results.plan().groups()[place.group];
+    if (std::ranges::find(group.columns(), factor) != group.columns().end()) continue;
+    throw InputError(scope.asked.origin, "the group " + group.name() + " has no factor \"" +
+                                             factor + '"' + suggestion(factor, group.columns()));
+  }
+  if (scope.cells.size() >= count) return;
+  throw InputError(scope.asked.origin,
+                   fmt::format("the test needs {} levels of {}", count, factor));
+}
+
+void require_mean(const TestedStatement& asked, const std::string& test) {
+  if (asked.average == Average::mean) return;
+  throw InputError(asked.origin, "the test " + test + " is not on an average; leave statistic out");
+}
+
+}  // namespace shoal::analysis
