@@ -1,4 +1,5 @@
 #include <boost/container/small_vector.hpp>
+#include <functional>
 #include <limits>
 #include <memory>
 #include <optional>
@@ -7,6 +8,7 @@
 
 #include "shoal/formations/behaviour.hpp"
 #include "shoal/formations/cohesion.hpp"
+#include "shoal/formations/lattice.hpp"
 #include "shoal/formations/potential.hpp"
 #include "shoal/formations/selection.hpp"
 #include "shoal/solvers/solver.hpp"
@@ -17,6 +19,9 @@ namespace {
 /// Sum (or mean) of a pair potential over the selected neighbours, and a cohesion term: Rypkema
 /// 2015, eq. 3.7. Unknowns: the own position (m, own frame).
 ///
+/// Damped, the minimiser is one implicit Euler step of c dp/dt = -grad V (the gradient flow of the
+/// surveyed potentials, with friction c): it minimises V(p) + c / (2 dt) |p|^2.
+///
 /// A value that holds its places itself; the potential and the cohesion belong to the behaviour.
 class AttractionRepulsionCost final : public solvers::Objective {
  public:
@@ -25,22 +30,32 @@ class AttractionRepulsionCost final : public solvers::Objective {
   double separation_m = 0.0;
   double share = 1.0;  // of each selected neighbour: 1 for a sum, 1/n for a mean
   Eigen::Vector2d anchor = Eigen::Vector2d::Zero();
-  boost::container::small_vector<Eigen::Vector2d, 8> selected;
+  double damping_per_m = 0.0;                                   // c / dt
+  boost::container::small_vector<Eigen::Vector2d, 8> selected;  // from `alike_from` on: like ones
+  std::size_t alike_from = 0;
 
   double evaluate(const double* x, double* gradient, double* hessian) const override {
     const Eigen::Vector2d p(x[0], x[1]);
     auto [cost, slope, curvature] = cohesion->at(p - anchor);
 
-    for (const Eigen::Vector2d& neighbour : selected) {
-      const Eigen::Vector2d away = p - neighbour;
+    if (damping_per_m > 0.0) {
+      const PlaneValue damped = squared_distance(0.5 * damping_per_m, p);
+      cost += damped.value;
+      slope += damped.gradient;
+      curvature += damped.hessian;
+    }
+    for (std::size_t k = 0; k < selected.size(); ++k) {
+      const Eigen::Vector2d away = p - selected[k];
       const double r = away.norm();
       // On top of a neighbour the potential has no gradient; the solver must turn away from it.
       if (!(r > 0.0)) return std::numeric_limits<double>::infinity();
       if (!gradient && !hessian) {
-        cost += share * potential->value(r, separation_m);
+        cost += share * (k < alike_from ? potential->value(r, separation_m)
+                                        : value_of_like(*potential, r, separation_m));
         continue;
       }
-      const RadialValue f = potential->derivatives(r, separation_m);
+      const RadialValue f = k < alike_from ? potential->derivatives(r, separation_m)
+                                           : derivatives_of_like(*potential, r, separation_m);
       const Eigen::Vector2d direction = away / r;
       cost += share * f.value;
       slope += share * f.slope * direction;
@@ -65,7 +80,9 @@ enum class Combination { sum, mean };
 struct AttractionRepulsionOptions {
   double contact_rangeout_m = 650.0;
   double separation_m = 300.0;
+  Lattice lattice = Lattice::triangles;
   Combination combination = Combination::sum;
+  double damping_per_m = 0.0;
   Choice<Selection> selection{"two_neighbours"};
   Choice<Cohesion> cohesion{"centroid"};
   Choice<Potential> potential{"thesis"};
@@ -76,8 +93,15 @@ struct AttractionRepulsionOptions {
     o.number("contact_rangeout_m", &A::contact_rangeout_m, "m", above(0),
              "neighbours further away are ignored (Rypkema 2015, Table 3.4)");
     o.number("separation_m", &A::separation_m, "m", above(0), "distance of lattice neighbours");
+    o.word("lattice", &A::lattice,
+           {{"triangles", Lattice::triangles}, {"squares", Lattice::squares}},
+           "of all vehicles alike, or of two kinds by the parity of their slots, which needs ids "
+           "(Spears et al. 2004); for squares a range between sqrt(2) and 2 separations, and all "
+           "in range");
     o.word("combination", &A::combination, {{"sum", Combination::sum}, {"mean", Combination::mean}},
            "of the potentials: their sum (eq. 3.7) or their mean (the author's program)");
+    o.number("damping_per_m", &A::damping_per_m, "1/m", at_least(0),
+             "friction over the time of a step: shortens the way to the minimum (0: all of it)");
     o.choice("selection", &A::selection, "neighbours that the vehicle goes by");
     o.choice("cohesion", &A::cohesion, "term against fracture");
     o.choice("potential", &A::potential, "pair potential");
@@ -94,7 +118,7 @@ template <class Family>
 }
 
 /// Goes to the nearest minimum of an attraction/repulsion potential of some neighbours: Rypkema
-/// 2015, sec. 3.4, Alg. 5. Needs neither ids nor a plan.
+/// 2015, sec. 3.4, Alg. 5. Needs no plan, and ids only to tell the kinds of a lattice of squares.
 class AttractionRepulsion final : public Behaviour {
  public:
   explicit AttractionRepulsion(const AttractionRepulsionOptions& options)
@@ -109,13 +133,13 @@ class AttractionRepulsion final : public Behaviour {
     potential->prepare(options.separation_m);
     potential_ = std::move(potential);
     const Neighbour somebody{{options.separation_m, 0.0}};
-    const solvers::Problem usual(Eigen::Vector2d::Zero(), cost_of({&somebody, 1}, {}));
+    const solvers::Problem usual(Eigen::Vector2d::Zero(), cost_of({&somebody, 1}, {}, 0));
     if (const auto why = solver_->refuses(usual)) {
       refuse(options.solver, *why + "; choose a solver for two unknowns without bounds");
     }
   }
 
-  bool needs_ids() const override { return false; }
+  bool needs_ids() const override { return options_.lattice == Lattice::squares; }
 
   Target step(const Neighbourhood& seen, const Plan&) const override {
     const auto problem = problem_of(seen);
@@ -135,22 +159,33 @@ class AttractionRepulsion final : public Behaviour {
     thread_local std::vector<Neighbour> in_range;
     in_range.clear();
     for (const Neighbour& n : seen.neighbours) {
+      if (needs_ids() && n.slot == anonymous) continue;
       if (n.position.norm() <= options_.contact_rangeout_m) in_range.push_back(n);
     }
-    const AttractionRepulsionCost cost = cost_of(in_range, seen.own.position);
+    const AttractionRepulsionCost cost = cost_of(in_range, seen.own.position, seen.own_slot);
     if (cost.selected.empty()) return std::nullopt;
     return std::optional<solvers::Problem>(std::in_place, Eigen::Vector2d::Zero(), cost);
   }
 
   AttractionRepulsionCost cost_of(std::span<const Neighbour> in_range,
-                                  const Eigen::Vector2d& own_position) const {
+                                  const Eigen::Vector2d& own_position, int own_slot) const {
     thread_local std::vector<int> chosen;
     selection_->select(in_range, chosen);
     AttractionRepulsionCost cost;
-    for (const int i : chosen) {
-      cost.selected.push_back(in_range[static_cast<std::size_t>(i)].position);
-    }
     if (chosen.empty()) return cost;
+    const auto select = [&](auto fits) {
+      for (const int i : chosen) {
+        const Neighbour& n = in_range[static_cast<std::size_t>(i)];
+        if (fits(n)) cost.selected.push_back(n.position);
+      }
+    };
+    const auto like = [&](const Neighbour& n) {
+      return options_.lattice == Lattice::squares && alike(n.slot, own_slot);
+    };
+    select(std::not_fn(like));
+    cost.alike_from = cost.selected.size();
+    if (cost.alike_from < chosen.size()) select(like);
+    cost.damping_per_m = options_.damping_per_m;
     cost.potential = potential_.get();
     cost.cohesion = cohesion_.get();
     cost.separation_m = options_.separation_m;

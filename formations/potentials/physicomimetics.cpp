@@ -26,9 +26,11 @@ T integrated_power(const T& u, double k) {
 /// this is the published law. With u = r/s and P_k(u) the integral of x^-k from 1 to u:
 ///   inside the band  f = force s / band (P_{p-1}(u) - P_p(u)),
 ///   outside of it    f = f(edge) +- force s (P_p(u) - P_p(edge)), in metres.
-/// Two things of the source are left to others: that vehicles beyond 1.5 s are not felt to the
-/// neighbour selection and its range, and the bound on the force, which keeps simulated particles
-/// from flying apart within a time step, to the solver.
+/// The rest of the source is in the behaviours, for any potential: the cut-off at 1.5 s (1.7 s for
+/// squares) is their contact_rangeout_m, squares of two kinds of vehicles their `lattice`, and F =
+/// m a with friction the behaviour pair_forces. The bound on the force, which keeps simulated
+/// particles from flying apart within a time step, is the envelope there; attraction_repulsion
+/// needs none.
 struct Physicomimetics {
   double force = 1.0;
   double power = 2.0;

@@ -5,8 +5,12 @@ namespace {
 
 /// A virtual spring of natural length s: f'(r) = k (r - s), f(r) = k (r - s)^2 / 2, in metres.
 ///
-/// Fujibayashi et al. 2002. Their springs are also created and cut, by the number of connections:
-/// here that is the work of the neighbour selection.
+/// Which springs there are is the matter of the neighbour selection: `acute_angle` creates and cuts
+/// them by the rule of Shucker and Bennett 2007, anew at every plan. Their damping is the friction
+/// of the behaviour pair_forces. Fujibayashi et al. 2002 make the number, the stiffness and the
+/// length of springs depend on how many a vehicle and its neighbour have: a vehicle here does not
+/// know that of its neighbours, and springs have no memory, so that they cannot be created below
+/// one distance and cut beyond another.
 struct VirtualSpring {
   double stiffness_per_m = 0.01;  // at s = 300 m that of the thesis' potential
 
@@ -22,8 +26,8 @@ struct VirtualSpring {
   }
 };
 
-const EnrolPotential<VirtualSpring> enrolled{"virtual_spring",
-                                             "a linear spring (Fujibayashi et al. 2002)"};
+const EnrolPotential<VirtualSpring> enrolled{
+    "virtual_spring", "a linear spring, for the selection acute_angle (Shucker and Bennett 2007)"};
 
 }  // namespace
 }  // namespace shoal::formations

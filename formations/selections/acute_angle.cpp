@@ -5,12 +5,12 @@
 namespace shoal::formations {
 namespace {
 
-/// Acute-angle mesh: a spring to b if and only if for every other neighbour c the angle at c
-/// between the vehicle and b is acute. Shucker and Bennett 2007 (the Gabriel graph of the
-/// positions).
+/// The virtual spring mesh: a spring to b is created if for every other neighbour c the angle at c
+/// between the vehicle and b is acute, and cut as soon as one is not. Shucker and Bennett 2007;
+/// Rypkema 2015, sec. 2.3.1. (The Gabriel graph of the positions. It needs no memory.)
 ///
-/// Only who is nearer than b can see the two under 90 degrees or more. On top of the vehicle there
-/// is no angle at c, and c does not stand between them.
+/// Only a neighbour nearer than b can see the two under 90 degrees or more. On top of the vehicle
+/// there is no angle at c, and c does not stand between them.
 struct AcuteAngle final : Selection {
   void select(std::span<const Neighbour> in_range, std::vector<int>& chosen) const override {
     chosen.clear();
@@ -28,7 +28,9 @@ struct AcuteAngle final : Selection {
 };
 
 const Enrol<Selection, AcuteAngle> enrolled{
-    "acute_angle", "springs that nobody sees under a right angle (Shucker and Bennett 2007)"};
+    "acute_angle",
+    "virtual spring mesh: neighbours that all others see under an acute angle (Shucker and "
+    "Bennett 2007)"};
 
 }  // namespace
 }  // namespace shoal::formations

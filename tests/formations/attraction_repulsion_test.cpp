@@ -283,6 +283,58 @@ TEST(AttractionRepulsion, IsDrawnToAWaypointInTheFrameOfTheOwnPositions) {
             0.01);
 }
 
+// Damping, and lattices of squares ----------------------------------------------------------------
+
+// A spring of 0.5 / m to a neighbour at 200 m, 100 m too near: k (100 + y) + d y = 0.
+TEST(AttractionRepulsion, GoesPartOfTheWayIfItIsDamped) {
+  for (const double damping : {0.0, 0.5, 2.0, 4.5}) {
+    const Target target = behaviour(kind, {{"cohesion.kind", "none"},
+                                           {"potential.kind", "virtual_spring"},
+                                           {"potential.virtual_spring.stiffness_per_m", 0.5},
+                                           {"damping_per_m", damping}})
+                              ->step({at({{0, 200}}), 0}, unused);
+    EXPECT_LT((target.position - Vector2d(0, -100 * 0.5 / (0.5 + damping))).norm(), 1e-3);
+  }
+}
+
+std::unique_ptr<Behaviour> for_squares(const std::string& potential = "thesis") {
+  return behaviour(kind, {{"lattice", "squares"},
+                          {"selection.kind", "in_range"},
+                          {"cohesion.kind", "none"},
+                          {"contact_rangeout_m", 510.0},
+                          {"potential.kind", potential}});
+}
+
+TEST(AttractionRepulsion, KeepsLikeVehiclesOnTheDiagonalOfASquare) {
+  const auto made = for_squares();
+  const auto distance = [&](int slot) {
+    const Neighbours seen{{{0, 400}, 0.0, slot}};
+    return (made->step({seen, 2}, unused).position - seen[0].position).norm();
+  };
+  EXPECT_NEAR(distance(3), 300.0, 0.01);
+  EXPECT_NEAR(distance(1), 300.0, 0.01);
+  EXPECT_NEAR(distance(4), 300.0 * std::sqrt(2.0), 0.01);
+  EXPECT_NEAR(distance(0), 300.0 * std::sqrt(2.0), 0.01);
+  EXPECT_TRUE(made->needs_ids());
+  EXPECT_FALSE(behaviour(kind)->needs_ids());
+  EXPECT_EQ(made->step({at({{0, 400}}), 2}, unused).reason, Reason::no_neighbour);
+}
+
+TEST_P(PotentialInABehaviour, ReturnsToItsPlaceInALatticeOfSquares) {
+  const auto made = for_squares(GetParam());
+  // Three columns: the parity of slots is that of a chequered board.
+  const Plan plan = square_lattice(3, 3, 300.0);
+  for (const double angle : {0.0, 0.7, 2.0}) {
+    for (const int own : {0, 1, 4}) {  // a corner, an edge, the middle
+      const Vector2d away = own == 4 ? Vector2d(20, -12) : Vector2d(4, -3);
+      const Neighbours seen = heard(plan, own, rotation(angle), away);
+      const Target target = made->step({seen, own}, plan);
+      EXPECT_EQ(target.reason, Reason::placed);
+      EXPECT_LT((target.position + away).norm(), 0.05) << "slot " << own;
+    }
+  }
+}
+
 // What cannot be combined -------------------------------------------------------------------------
 
 std::string complaint(std::initializer_list<std::pair<const char*, Setting>> options) {
