@@ -36,6 +36,7 @@ class Recording final : public formations::Behaviour {
 
   bool needs_ids() const override { return behaviour_->needs_ids(); }
   std::optional<Eigen::Vector2d> waypoint() const override { return behaviour_->waypoint(); }
+  bool needs_clock() const override { return behaviour_->needs_clock(); }
 
  private:
   std::shared_ptr<const Behaviour> behaviour_;

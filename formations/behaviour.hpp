@@ -68,9 +68,12 @@ class Behaviour {
   virtual bool needs_ids() const = 0;
 
   /// The one place that all vehicles are led to, also those that hear nobody (metres, frame of the
-  /// own positions), if there is one. Such targets change as the vehicle moves: they must be
-  /// renewed by the clock, not only when pings were heard.
+  /// own positions), if there is one.
   virtual std::optional<Eigen::Vector2d> waypoint() const { return std::nullopt; }
+
+  /// True if its targets change as the vehicle moves: they must be renewed by the clock, not only
+  /// when pings were heard.
+  virtual bool needs_clock() const { return waypoint().has_value(); }
 };
 
 }  // namespace shoal::formations

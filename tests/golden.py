@@ -50,9 +50,10 @@ def run(shoal, scenario, behaviour, seed):
 def measure(shoal, seeds):
     """(scenario, behaviour) -> per measure, the values over the seeds."""
     # Behaviours of virtual potentials lead to way-points, which only their own scenarios have; of
-    # those the basin, with its 256 vehicles, is a matter of its study.
+    # those the basin, with its 256 vehicles, is a matter of its study. Pair forces are for vehicles
+    # that hear one another all the time.
     cases = [(s, b) for s in names(shoal, "scenario") if s != "potentials_basin"
-             for b in names(shoal, "behaviour")
+             for b in names(shoal, "behaviour") if b != "pair_forces"
              if s.startswith("potentials_") == b.startswith("virtual_potential")]
     with concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
         jobs = {case: [pool.submit(run, shoal, *case, seed) for seed in seeds] for case in cases}

@@ -20,9 +20,10 @@ void thin(std::vector<analysis::Situation>& situations, std::size_t keep) {
   situations.resize(keep);
 }
 
-bool leads_to_a_waypoint(const std::string& behaviour) {
-  const auto made = Registry<formations::Behaviour>::instance().make(behaviour, {}, "behaviour");
-  return made->waypoint().has_value();
+bool needs_clock(const std::string& behaviour) {
+  return Registry<formations::Behaviour>::instance()
+      .make(behaviour, {}, "behaviour")
+      ->needs_clock();
 }
 
 analysis::Corpus recorded(const std::string& name, const std::string& behaviour,
@@ -31,7 +32,7 @@ analysis::Corpus recorded(const std::string& name, const std::string& behaviour,
   scenarios::apply_set(root, "behaviour.kind=" + behaviour);
   scenarios::apply_set(root, "trial.duration_s=" + shortest(arguments.duration_s));
   scenarios::apply_set(root, "trial.seed=" + arguments.seed);
-  if (leads_to_a_waypoint(behaviour)) scenarios::apply_set(root, "planner.update=tick");
+  if (needs_clock(behaviour)) scenarios::apply_set(root, "planner.update=tick");
   const scenarios::Scenario scenario = scenarios::read_scenario(root);
   analysis::ProblemRecorder recorder;
   const analysis::Trial trial =

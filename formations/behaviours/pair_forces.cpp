@@ -1,0 +1,111 @@
+#include <cmath>
+#include <memory>
+#include <utility>
+#include <vector>
+
+#include "shoal/formations/behaviour.hpp"
+#include "shoal/formations/lattice.hpp"
+#include "shoal/formations/potential.hpp"
+#include "shoal/formations/selection.hpp"
+
+namespace shoal::formations {
+namespace {
+
+struct PairForcesOptions {
+  double contact_rangeout_m = 450.0;
+  double separation_m = 300.0;
+  Lattice lattice = Lattice::triangles;
+  double strength_m_s2 = 0.01;
+  double friction_per_s = 0.05;
+  Choice<Selection> selection{"in_range"};
+  Choice<Potential> potential{"physicomimetics"};
+
+  static void declare(Options<PairForcesOptions>& o) {
+    using P = PairForcesOptions;
+    o.number("contact_rangeout_m", &P::contact_rangeout_m, "m", above(0),
+             "vehicles further away are not felt: 1.5 separations in Spears et al. 2004, 1.7 for "
+             "squares");
+    o.number("separation_m", &P::separation_m, "m", above(0), "distance of lattice neighbours");
+    o.word("lattice", &P::lattice,
+           {{"triangles", Lattice::triangles}, {"squares", Lattice::squares}},
+           "of all vehicles alike, or of two kinds by the parity of their slots, which needs ids "
+           "(Spears et al. 2004)");
+    o.number("strength_m_s2", &P::strength_m_s2, "m/s2", above(0),
+             "acceleration where the potential has a slope of 1");
+    o.number("friction_per_s", &P::friction_per_s, "1/s", at_least(0),
+             "deceleration per own velocity; 0 conserves the energy of a closed swarm");
+    o.choice("selection", &P::selection, "neighbours whose forces the vehicle feels");
+    o.choice("potential", &P::potential, "pair potential, whose negative slope is the force");
+  }
+};
+
+/// Moves as a particle under the forces of its neighbours, with friction:
+/// a = -strength sum grad f - friction v.
+///
+/// The dynamics of the sources whose laws are enrolled as potentials: F = m a with friction (Spears
+/// et al. 2004; 1 - FR per time step there), springs with damping of the own velocity (Shucker and
+/// Bennett 2007), Lennard-Jones with a damping term (Pinciroli et al. 2008). attraction_repulsion
+/// goes to the minimum instead, where no velocity is left to damp. The own velocity is the one that
+/// the vehicle knows of, through the water for a drifter. How large a force may be is the matter of
+/// the scenario's envelope.
+class PairForces final : public Behaviour {
+ public:
+  explicit PairForces(const PairForcesOptions& options)
+      : options_(options), selection_(options.selection.make()) {
+    std::unique_ptr<Potential> potential = options.potential.make();
+    if (const auto why = potential->complaint(options.separation_m)) {
+      const ChoiceSetting& setting = options.potential.setting();
+      const std::string path = setting.path.empty() ? Potential::family : setting.path;
+      throw InputError(setting.options().origin, path + "." + setting.kind + ": " + *why);
+    }
+    potential->prepare(options.separation_m);
+    potential_ = std::move(potential);
+  }
+
+  bool needs_ids() const override { return options_.lattice == Lattice::squares; }
+  bool needs_clock() const override { return true; }
+
+  /// The cost is the potential of the neighbours, in metres.
+  Target step(const Neighbourhood& seen, const Plan&) const override {
+    thread_local std::vector<Neighbour> in_range;
+    thread_local std::vector<int> chosen;
+    in_range.clear();
+    for (const Neighbour& n : seen.neighbours) {
+      if (needs_ids() && n.slot == anonymous) continue;
+      if (n.position.norm() <= options_.contact_rangeout_m) in_range.push_back(n);
+    }
+    selection_->select(in_range, chosen);
+    if (chosen.empty()) return Target::hold(Reason::no_neighbour);
+
+    double potential = 0.0;
+    Eigen::Vector2d force = -options_.friction_per_s * seen.own.velocity;
+    for (const int i : chosen) {
+      const Neighbour& n = in_range[static_cast<std::size_t>(i)];
+      const double r = n.position.norm();
+      if (!(r > 0.0)) return Target::hold(Reason::degenerate);
+      const bool like = needs_ids() && alike(n.slot, seen.own_slot);
+      const RadialValue f = like ? derivatives_of_like(*potential_, r, options_.separation_m)
+                                 : potential_->derivatives(r, options_.separation_m);
+      potential += f.value;
+      force += options_.strength_m_s2 * f.slope / r * n.position;
+    }
+    if (!force.allFinite() || !std::isfinite(potential)) return Target::hold(Reason::solver_failed);
+    return Target::push(force, potential);
+  }
+
+  /// Its force is a gradient, not the answer to a problem.
+  void pose(const Neighbourhood&, const Plan&, ProblemViewer&) const override {}
+
+ private:
+  PairForcesOptions options_;
+  std::shared_ptr<const Selection> selection_;
+  std::shared_ptr<const Potential> potential_;
+};
+
+const Enrol<Behaviour, PairForcesOptions> enrolled{
+    "pair_forces",
+    "forces of a pair potential of some neighbours, with friction (Spears et al. 2004)",
+    [](const PairForcesOptions& options) { return std::make_unique<PairForces>(options); }};
+
+}  // namespace
+}  // namespace shoal::formations
