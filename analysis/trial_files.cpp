@@ -52,6 +52,8 @@ std::string summary_json(const Trial& trial, const std::string& name) {
   summary["program"] = build_info().program;
   summary["vehicles"] = trial.world->size();
   summary["duration_s"] = trial.scenario.trial.duration_s;
+  summary["mission_s"] = trial.world->time_s();
+  summary["stopped_by"] = trial.world->stopped_by();
   summary["wall_s"] = trial.wall_s;
   summary["vehicle_seconds_per_wall_s"] = trial.vehicle_seconds_per_wall_s();
   Json& metrics = summary["metrics"] = Json::object();

@@ -18,7 +18,8 @@ constexpr double most_ticks = 1e15;
 
 void TrialOptions::declare(Options<TrialOptions>& o) {
   using T = TrialOptions;
-  o.number("duration_s", &T::duration_s, "s", above(0), "length of the mission");
+  o.number("duration_s", &T::duration_s, "s", above(0),
+           "length of the mission, unless a rule ends it earlier");
   o.integer("seed", &T::seed, "", in(0, 9e15),
             "seed of all random numbers; same seed, same bits, and 0 is a seed like any other");
   o.number("record_every_s", &T::record_every_s, "s", at_least(0),
@@ -80,6 +81,7 @@ void QualityOptions::declare(Options<QualityOptions>& o) {
 void Scenario::declare(Options<Scenario>& o) {
   using S = Scenario;
   o.table("trial", &S::trial, "length, seed and recording");
+  o.choice("stop", &S::stop, "ends the trial before its duration");
   o.table("swarm", &S::swarm, "the vehicles and their starts");
   o.choice("plan", &S::plan, "the geometry the swarm should take");
   o.choice("behaviour", &S::behaviour, "turns what was heard into a target");
@@ -121,6 +123,7 @@ class CrossChecks {
     times();
     hearing();
     way();
+    end();
   }
 
  private:
@@ -193,10 +196,20 @@ class CrossChecks {
   }
 
   void way() const {
-    if (s_.planner.update == PlannerOptions::Update::ping && s_.behaviour.make()->waypoint()) {
-      refuse({"planner.update", "behaviour.kind"},
-             "behaviour " + s_.behaviour.kind() +
-                 " leads vehicles that hear nobody, too; set planner.update = \"tick\"");
+    if (s_.planner.update == PlannerOptions::Update::tick) return;
+    const auto behaviour = s_.behaviour.make();
+    if (!behaviour->needs_clock()) return;
+    refuse({"planner.update", "behaviour.kind"},
+           "behaviour " + s_.behaviour.kind() +
+               (behaviour->waypoint() ? " leads vehicles that hear nobody, too"
+                                      : " goes by the own motion, which changes between pings") +
+               "; set planner.update = \"tick\"");
+  }
+
+  void end() const {
+    if (const auto why = s_.stop.make()->refuses_quality_every(s_.quality.every_s)) {
+      refuse({"stop." + s_.stop.kind(), "stop.kind", "quality.every_s"},
+             "stop." + s_.stop.kind() + ": " + *why);
     }
   }
 

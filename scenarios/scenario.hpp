@@ -17,6 +17,7 @@
 #include "shoal/scenarios/energy.hpp"
 #include "shoal/scenarios/obstacles.hpp"
 #include "shoal/scenarios/starts/start.hpp"
+#include "shoal/scenarios/stops/stop_rule.hpp"
 #include "shoal/scenarios/vehicles/swarm.hpp"
 
 namespace shoal::scenarios {
@@ -86,6 +87,7 @@ struct QualityOptions {
 /// One reproducible experiment: everything that a trial depends on.
 struct Scenario {
   TrialOptions trial;
+  Choice<StopRule> stop{"duration"};
   SwarmOptions swarm;
   Choice<formations::PlanSource> plan{"square"};
   Choice<formations::Behaviour> behaviour{"rigid_registration"};

@@ -28,7 +28,8 @@ World::World(const Scenario& scenario, int threads, const BehaviourHook& hook)
       plan_(std::make_shared<formations::Plan>(scenario.plan.make()->plan())),
       current_(scenario.current.make()),
       obstacles_(make_obstacles(scenario.obstacles)),
-      channel_(scenario.ping, random_) {
+      channel_(scenario.ping, random_),
+      stop_(scenario.stop.make()) {
   const auto n = static_cast<std::size_t>(plan_->size());
   if (n < 2) {
     throw InputError(scenario.plan.setting().origin,
@@ -94,6 +95,14 @@ void World::run(std::span<Observer* const> observers) {
   for (const Observer* o : observers) {
     looks.push_back(ticks_of(o->every_s(), scenario_.trial.tick_s, "an observer's interval"));
   }
+  const auto measures_quality = [](const Observer* o) { return o->quality().has_value(); };
+  const auto judge = std::ranges::find_if(observers, measures_quality);
+  if (stop_->needs_quality() && judge == observers.end()) {
+    throw InputError(scenario_.stop.setting().origin,
+                     "stop.kind is " + scenario_.stop.kind() +
+                         ", and nothing that observes this world measures the formation quality; "
+                         "run it with its measures, or set stop.kind = \"duration\"");
+  }
   // As many threads as asked for, also on a machine with fewer cores.
   const tbb::global_control allowed(tbb::global_control::max_allowed_parallelism,
                                     static_cast<std::size_t>(threads_));
@@ -101,11 +110,14 @@ void World::run(std::span<Observer* const> observers) {
   const std::size_t blocks = (size() + block_size - 1) / block_size;
 
   while (true) {
-    if (waypoint_ && scenario_.arrival.ends_trial && all_arrived()) end_tick_ = tick_;
+    if (waypoint_ && scenario_.arrival.ends_trial && all_arrived()) end_now("arrival");
     lose_vehicles();
     send_pings();
     for (std::size_t k = 0; k < looks.size(); ++k) {
       if (tick_ % looks[k] == 0) observers[k]->observe(*this);
+    }
+    if (judge != observers.end() && tick_ != end_tick_ && stop_->met(*(*judge)->quality())) {
+      end_now(scenario_.stop.kind());
     }
     if (tick_ == end_tick_) return;
 
@@ -138,6 +150,12 @@ std::int64_t World::next_event(std::span<const std::int64_t> looks) const {
     if (!lost(i)) next = std::min(next, next_emission_[i]);
   }
   return next;
+}
+
+void World::end_now(const std::string& why) {
+  if (tick_ == end_tick_) return;
+  end_tick_ = tick_;
+  stopped_by_ = why;
 }
 
 void World::lose_vehicles() {

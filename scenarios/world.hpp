@@ -21,6 +21,8 @@ class Observer {
   /// Seconds between two looks; a multiple of the tick.
   virtual double every_s() const = 0;
   virtual void observe(const World& world) = 0;
+  /// The formation quality so far, if that is what it measures: a stop rule may go by it.
+  virtual std::optional<QualitySoFar> quality() const { return std::nullopt; }
 };
 
 /// Puts something between the vehicles and their behaviour, as to record what it is asked.
@@ -50,8 +52,12 @@ class World {
 
   /// Runs the mission to its end. Each observer looks at time zero, then at its own interval, and
   /// last at the end of the mission if that is one of its instants. The end is after
-  /// trial.duration_s, or earlier where arrival ends the trial.
+  /// trial.duration_s, or earlier where arrival or the stop rule ends the trial. Throws InputError
+  /// if that rule goes by the formation quality and no observer measures it.
   void run(std::span<Observer* const> observers);
+
+  /// What ended the trial: "duration", "arrival", or the kind of its stop rule. After run().
+  const std::string& stopped_by() const { return stopped_by_; }
 
   double time_s() const { return static_cast<double>(tick_) * scenario_.trial.tick_s; }
   std::size_t size() const { return swarm_->size(); }
@@ -77,6 +83,7 @@ class World {
 
  private:
   std::int64_t next_event(std::span<const std::int64_t> looks) const;
+  void end_now(const std::string& why);
   void lose_vehicles();
   void send_pings();
   void run_block(std::size_t first, std::size_t last, std::int64_t until);
@@ -99,6 +106,8 @@ class World {
   std::optional<Eigen::Vector2d> waypoint_;
   Channel channel_;
   std::unique_ptr<Swarm> swarm_;
+  std::unique_ptr<StopRule> stop_;
+  std::string stopped_by_ = "duration";
 
   std::vector<formations::Planner> planners_;
   std::vector<formations::DriftGuidance::State> guidance_;

@@ -76,6 +76,11 @@ class Quality final : public Measure {
     straightness_ = straightness(world);
   }
 
+  std::optional<scenarios::QualitySoFar> quality() const override {
+    if (!metric_) return std::nullopt;
+    return scenarios::QualitySoFar{time_s_, quality_m_};
+  }
+
   void finish(const scenarios::World& world, Results& results) const override {
     const QualityHistory history(time_s_, quality_m_, world.time_s());
     results.add("quality_final_m",

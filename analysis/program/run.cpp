@@ -24,8 +24,9 @@ void print_wrapped(std::string line, const std::vector<std::string>& words) {
 }
 
 void print_summary(const analysis::Trial& trial, const std::string& name) {
-  fmt::print("{}: {}, {} vehicles, {:g} s, seed {}\n", name, trial.scenario.behaviour.kind(),
-             trial.world->size(), trial.world->time_s(), trial.scenario.trial.seed);
+  fmt::print("{}: {}, {} vehicles, {:g} s (ended by {}), seed {}\n", name,
+             trial.scenario.behaviour.kind(), trial.world->size(), trial.world->time_s(),
+             trial.world->stopped_by(), trial.scenario.trial.seed);
   std::vector<std::string> without;
   for (const auto& [metric, value] : trial.results.values) {
     if (value) {

@@ -1,0 +1,17 @@
+#include "shoal/scenarios/stops/stop_rule.hpp"
+
+namespace shoal::scenarios {
+namespace {
+
+struct Duration final : StopRule {
+  bool needs_quality() const override { return false; }
+  std::optional<std::string> refuses_quality_every(double) const override { return std::nullopt; }
+  bool met(const QualitySoFar&) const override { return false; }
+
+  static void declare(Options<Duration>&) {}
+};
+
+const Enrol<StopRule, Duration> enrolled{"duration", "never: after trial.duration_s"};
+
+}  // namespace
+}  // namespace shoal::scenarios
