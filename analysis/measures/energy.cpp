@@ -1,3 +1,5 @@
+#include <algorithm>
+
 #include "shoal/analysis/measure.hpp"
 
 namespace shoal::analysis {
@@ -28,10 +30,7 @@ class EnergyMeasure final : public Measure {
             {"energy_max_wh", "Wh", "energy of the vehicle that spent most"}};
   }
 
-  void begin(const scenarios::World& world) override {
-    every_s_ = series_interval_s(world);
-    settled_s_ = settled_from * world.scenario().trial.duration_s;
-  }
+  void begin(const scenarios::World& world) override { every_s_ = series_interval_s(world); }
 
   void observe(const scenarios::World& world) override {
     const auto total = over_survivors(world, [&](std::size_t i) { return energy_wh(world, i); });
@@ -40,9 +39,7 @@ class EnergyMeasure final : public Measure {
     mean_wh_.push_back(total->mean);
     min_wh_.push_back(total->least);
     max_wh_.push_back(total->greatest);
-    if (!settled_wh_.empty() || world.time_s() < settled_s_) return;
-    settled_s_ = world.time_s();
-    for (std::size_t i = 0; i < world.size(); ++i) settled_wh_.push_back(energy_wh(world, i));
+    for (std::size_t i = 0; i < world.size(); ++i) spent_wh_.push_back(energy_wh(world, i));
   }
 
   void finish(const scenarios::World& w, Results& results) const override {
@@ -71,19 +68,21 @@ class EnergyMeasure final : public Measure {
     return w.propulsion_wh(i) + w.hotel_wh(i) + w.comms_wh(i);
   }
 
-  // Of the same vehicles at both ends, so that losses are no change of power.
+  // Of the same vehicles at both ends, so that losses are no change of power. When the mission ends
+  // is not known before it does: arrival or a stop rule may end it.
   std::optional<double> settled_rate_w(const scenarios::World& w) const {
-    const double lasted_s = w.time_s() - settled_s_;
-    if (settled_wh_.empty() || lasted_s <= 0.0) return std::nullopt;
+    const auto from = std::ranges::lower_bound(time_s_, settled_from * w.time_s());
+    if (from == time_s_.end() || *from >= w.time_s()) return std::nullopt;
+    const double lasted_s = w.time_s() - *from;
+    const std::size_t before = static_cast<std::size_t>(from - time_s_.begin()) * w.size();
     const auto spent =
-        over_survivors(w, [&](std::size_t i) { return energy_wh(w, i) - settled_wh_[i]; });
+        over_survivors(w, [&](std::size_t i) { return energy_wh(w, i) - spent_wh_[before + i]; });
     if (!spent) return std::nullopt;
     return spent->mean * joules_per_wh / lasted_s;
   }
 
-  double settled_s_ = 0.0;
   std::vector<double> time_s_, mean_wh_, min_wh_, max_wh_;
-  std::vector<double> settled_wh_;  // of every vehicle
+  std::vector<double> spent_wh_;  // of every vehicle at every look
 };
 
 const Enrol<Measure, EnergyMeasure> enrolled{"energy",
