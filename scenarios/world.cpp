@@ -291,11 +291,12 @@ void World::run_block(std::size_t first, std::size_t last, std::int64_t until) {
       if (guided) guide(i);
     }
 
-    current_->sample(static_cast<double>(tick) * tick_s, x, y, u, v);
+    current_->sample_at(static_cast<double>(tick) * tick_s, x, y, depth, u, v);
     if (lost_count_ > 0) {
       for (std::size_t i = first; i < last; ++i) {
         if (lost(i)) u_m_s_[i] = v_m_s_[i] = 0.0;
       }
+  const std::span<const double> depth(swarm.depth_m.data() + first, count);
     }
     std::ranges::copy(x, x_before);
     std::ranges::copy(y, y_before);

@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "shoal/core/text.hpp"
@@ -13,6 +14,7 @@ namespace {
 using Eigen::Vector2d;
 
 enum class Outside { error, clamp };
+enum class Depth { vehicle, fixed };
 
 struct NetcdfOptions {
   FilePath file;
@@ -21,6 +23,7 @@ struct NetcdfOptions {
   std::vector<Vector2d> origin;  ///< longitude, latitude; none or one
   double origin_x_m = 0.0;
   double origin_y_m = 0.0;
+  Depth depth = Depth::vehicle;
   double depth_m = 0.0;
   double strength = 1.0;
   Outside outside = Outside::error;
@@ -39,8 +42,12 @@ struct NetcdfOptions {
              "[[LON, LAT]] of the mission's origin; then x is east and y is north", "degrees");
     o.number("origin_x_m", &N::origin_x_m, "m", {}, "the mission's origin on projected axes, x");
     o.number("origin_y_m", &N::origin_y_m, "m", {}, "the mission's origin on projected axes, y");
+    o.word("depth", &N::depth, {{"vehicle", Depth::vehicle}, {"fixed", Depth::fixed}},
+           "a vehicle meets the current of its own depth, or all meet that of depth_m; a file with "
+           "one level, or none, is the same at every depth");
     o.number("depth_m", &N::depth_m, "m", at_least(0.0),
-             "depth of the current, interpolated between the levels of the file");
+             "fixed depth of the current, and the one that maps show, interpolated between the "
+             "levels of the file");
     o.number("strength", &N::strength, "", in(0.0, 100.0),
              "the velocities of the file are multiplied by it: what if the current were stronger");
     o.word("outside", &N::outside, {{"error", Outside::error}, {"clamp", Outside::clamp}},
@@ -68,6 +75,7 @@ class NetcdfCurrent final : public Current {
     WatersRequest request{.file = resolved(options.file),
                           .origin = {.x_y = {options.origin_x_m, options.origin_y_m}},
                           .depth_m = options.depth_m,
+                          .all_levels = options.depth == Depth::vehicle,
                           .clamp = options.outside == Outside::clamp,
                           .u_variable = options.u_variable,
                           .v_variable = options.v_variable};
@@ -95,6 +103,19 @@ class NetcdfCurrent final : public Current {
     for (double& v : v_m_s) v *= strength_;
   }
 
+  void sample_at(double time_s, std::span<const double> x_m, std::span<const double> y_m,
+                 std::span<const double> depth_m, std::span<double> u_m_s,
+                 std::span<double> v_m_s) const override {
+    if (waters_->levels.empty()) return sample(time_s, x_m, y_m, u_m_s, v_m_s);
+    if (outside_ == Outside::error) require_time(time_s);
+    for (std::size_t k = 0; k < x_m.size(); ++k) {
+      const std::optional<Vector2d> velocity = between_levels(time_s, x_m[k], y_m[k], depth_m[k]);
+      if (!velocity) refuse_place(time_s, x_m[k], y_m[k]);
+      u_m_s[k] = strength_ * velocity->x();
+      v_m_s[k] = strength_ * velocity->y();
+    }
+  }
+
   void require_duration(double duration_s) const override {
     if (outside_ == Outside::clamp) return;
     require_time(0.0);
@@ -109,6 +130,31 @@ class NetcdfCurrent final : public Current {
         strength_(options.strength),
         waters_(std::move(waters)),
         start_s_(start_s) {}
+
+  /// Linear in depth. Where one level lies in the sea floor it is the other's.
+  std::optional<Vector2d> between_levels(double time_s, double x_m, double y_m,
+                                         double depth_m) const {
+    const std::vector<double>& depths = waters_->depths_m;
+    double depth = std::max(0.0, depth_m);  // at most waves are above the surface
+    if (outside_ == Outside::clamp) depth = std::clamp(depth, depths.front(), depths.back());
+    if (!(depth >= depths.front() && depth <= depths.back())) refuse_depth(x_m, y_m, depth);
+    const auto below = std::ranges::upper_bound(depths, depth) - depths.begin();
+    const auto lower = std::min(static_cast<std::size_t>(below), depths.size() - 1);
+    const std::size_t upper = lower - 1;
+    const double share = (depth - depths[upper]) / (depths[lower] - depths[upper]);
+    const auto above_it = at_level(upper, time_s, x_m, y_m);
+    const auto below_it = at_level(lower, time_s, x_m, y_m);
+    if (!above_it || !below_it) return above_it ? above_it : below_it;
+    return (1.0 - share) * *above_it + share * *below_it;
+  }
+
+  std::optional<Vector2d> at_level(std::size_t level, double time_s, double x_m, double y_m) const {
+    Vector2d velocity;
+    const std::size_t found = waters_->levels[level].sample(
+        time_s + start_s_, waters_->frame.grid_from_mission, outside_ == Outside::clamp, {&x_m, 1},
+        {&y_m, 1}, {&velocity.x(), 1}, {&velocity.y(), 1});
+    return found == 1 ? std::optional(velocity) : std::nullopt;
+  }
 
   /// Mission start, in seconds since the first time in the file.
   static double start_in_file(const Waters& waters, const NetcdfOptions& options) {
@@ -149,6 +195,14 @@ class NetcdfCurrent final : public Current {
         late ? "ends" : "begins", iso_text(waters_->first_time.plus(limit_s), waters_->calendar),
         reckoned, late ? "shorten trial.duration_s" : "raise current.netcdf.time_offset_s",
         or_clamp));
+  }
+
+  [[noreturn]] void refuse_depth(double x_m, double y_m, double depth_m) const {
+    throw InputError(fmt::format(
+        "{}: no current at a depth of {} m, {}: the levels run from {} to {} m; set "
+        "current.netcdf.depth = \"fixed\" with a depth_m in them, or {}",
+        name_, shortest(depth_m), waters_->frame.position_text(x_m, y_m),
+        shortest(waters_->depths_m.front()), shortest(waters_->depths_m.back()), or_clamp));
   }
 
   [[noreturn]] void refuse_place(double time_s, double x_m, double y_m) const {

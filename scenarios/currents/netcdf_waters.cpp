@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <mutex>
+#include <numeric>
 #include <system_error>
 
 #include "shoal/core/error.hpp"
@@ -74,6 +75,7 @@ void blend_levels(std::vector<Node>& upper, const std::vector<Node>& lower, doub
   }
 }
 
+/// NaN where there is no water, which may be all of a level.
 std::vector<Node> read_nodes(const NetcdfFile& file, const CurrentLayout& layout,
                              const MissionFrame& frame, const Level& level) {
   VelocityReader reader(file, layout);
@@ -94,21 +96,39 @@ std::vector<Node> read_nodes(const NetcdfFile& file, const CurrentLayout& layout
       }
     }
   }
-  const bool dry = std::ranges::all_of(nodes, [](const Node& node) { return std::isnan(node.u); });
-  if (dry) file.refuse("holds no current: every value is missing");
   return nodes;
 }
 
 std::shared_ptr<const Waters> read(const WatersRequest& request) {
   const NetcdfFile file(request.file);
   const CurrentLayout layout = understand(file, request.u_variable, request.v_variable);
-  MissionFrame frame = mission_frame(file, layout, request.origin);
-  VelocityField field(frame.x_m, frame.y_m,
-                      layout.time ? layout.time->values : std::vector<double>{0.0},
-                      read_nodes(file, layout, frame, level_at(file, layout, request)));
-  return std::make_shared<const Waters>(
-      Waters{file.name(), layout.time ? layout.time->values.size() : 0, layout.calendar,
-             layout.first_time, std::move(frame), std::move(field)});
+  const MissionFrame frame = mission_frame(file, layout, request.origin);
+  const auto field_of = [&](std::vector<Node> nodes) {
+    return VelocityField(frame.x_m, frame.y_m,
+                         layout.time ? layout.time->values : std::vector<double>{0.0},
+                         std::move(nodes));
+  };
+  std::vector<Node> nodes = read_nodes(file, layout, frame, level_at(file, layout, request));
+  const bool dry = std::ranges::all_of(nodes, [](const Node& node) { return std::isnan(node.u); });
+  if (dry) file.refuse("holds no current: every value is missing");
+  Waters waters{file.name(),
+                layout.time ? layout.time->values.size() : 0,
+                layout.calendar,
+                layout.first_time,
+                frame,
+                field_of(std::move(nodes)),
+                {},
+                {}};
+  if (request.all_levels && layout.depth && layout.depth->values.size() > 1) {
+    std::vector<std::size_t> order(layout.depth->values.size());
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    std::ranges::sort(order, {}, [&](std::size_t k) { return layout.depth->values[k]; });
+    for (const std::size_t k : order) {
+      waters.depths_m.push_back(layout.depth->values[k]);
+      waters.levels.push_back(field_of(read_nodes(file, layout, frame, {k, k, 0.0})));
+    }
+  }
+  return std::make_shared<const Waters>(std::move(waters));
 }
 
 /// What was read, by whom it was asked for, and from which state of the file.

@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "shoal/scenarios/currents/netcdf_field.hpp"
 #include "shoal/scenarios/currents/netcdf_frame.hpp"
@@ -17,6 +18,7 @@ struct WatersRequest {
   std::filesystem::path file;
   MissionOrigin origin;
   double depth_m = 0.0;
+  bool all_levels = false;
   bool clamp = false;  ///< outside the depths of the file, take the nearest
   std::string u_variable, v_variable;
 
@@ -30,7 +32,10 @@ struct Waters {
   Calendar calendar = Calendar::standard;
   Instant first_time;
   MissionFrame frame;
-  VelocityField field;  ///< in the grid's frame, seconds since first_time
+  VelocityField field;  ///< at the depth asked for; in the grid's frame, seconds since first_time
+  /// Of files with two or more levels, if all were asked for: their depths, ascending, and fields.
+  std::vector<double> depths_m;
+  std::vector<VelocityField> levels;
 
   /// Throws InputError that begins with the name of the file.
   [[noreturn]] void refuse(const std::string& why) const;

@@ -38,6 +38,17 @@ TEST(UniformCurrent, SamplesManyPositionsAtOnce) {
   EXPECT_EQ(v, std::vector<double>(3, 0.0));
 }
 
+TEST(Shear, ChangesAcrossAndWithDepth) {
+  const auto water = current("shear", {{"u_m_s", 0.1}, {"u_per_y", 1e-3}, {"v_per_depth", -2e-3}});
+  EXPECT_EQ(at(*water, 500.0, 0.0), Eigen::Vector2d(0.1, 0.0));
+  EXPECT_NEAR(at(*water, 0.0, -300.0).x(), -0.2, 1e-15);
+  const double x = 0.0, y = 100.0, depth = 50.0;
+  Eigen::Vector2d velocity;
+  water->sample_at(0.0, {&x, 1}, {&y, 1}, {&depth, 1}, {&velocity.x(), 1}, {&velocity.y(), 1});
+  EXPECT_NEAR(velocity.x(), 0.2, 1e-15);
+  EXPECT_NEAR(velocity.y(), -0.1, 1e-15);
+}
+
 TEST(Channels, RunOppositeWithStillWaterBetween) {
   const auto water = current("channels");
   EXPECT_EQ(at(*water, 7.0, 151.0), Eigen::Vector2d(0.1, 0.0));

@@ -125,6 +125,61 @@ TEST(NetcdfCurrent, InterpolatesBetweenDepthLevels) {
   }
 }
 
+TEST(NetcdfCurrent, MeetsEveryVehicleAtItsOwnDepth) {
+  File file;
+  file.depth = {20, 0};
+  file.velocity = [](double, double z, double x, double) {
+    return Vector2d(0.1 + 0.01 * z, 1e-3 * x);
+  };
+  const fs::path path = file.write("two.nc");
+  const auto water = open(path);
+  const std::vector<double> x{50, 60, 70, 80}, y{50, 50, 60, 60}, depth{0, 5, 20, -0.01};
+  std::vector<double> u(4), v(4);
+  water->sample_at(0, x, y, depth, u, v);
+  for (std::size_t k = 0; k < 4; ++k) {
+    EXPECT_NEAR(u[k], 0.1 + 0.01 * std::max(0.0, depth[k]), float_rounding) << k;
+    const Changes fixed{{"depth", plain(std::string("fixed"))},
+                        {"depth_m", plain(std::max(0.0, depth[k]))}};
+    const Vector2d there = at(*open(path, fixed), 0, x[k], y[k]);
+    EXPECT_NEAR(u[k], there.x(), float_rounding);
+    EXPECT_NEAR(v[k], there.y(), float_rounding);
+  }
+  // Maps show the surface; a fixed depth holds for all.
+  EXPECT_NEAR(at(*water, 0, 50, 50).x(), 0.1, float_rounding);
+  const Changes at_ten{{"depth", plain(std::string("fixed"))}, {"depth_m", plain(10.0)}};
+  open(path, at_ten)->sample_at(0, x, y, depth, u, v);
+  for (const double each : u) EXPECT_NEAR(each, 0.2, float_rounding);
+}
+
+TEST(NetcdfCurrent, RefusesAVehicleThatLeavesTheDepths) {
+  File file;
+  file.depth = {5, 20};
+  file.velocity = [](double, double z, double, double) { return Vector2d(0.01 * z, 0); };
+  const fs::path path = file.write("two.nc");
+  const double x = 50, y = 50;
+  double u = 0, v = 0;
+  const auto met = [&](const Current& water, double depth) {
+    water.sample_at(0, {&x, 1}, {&y, 1}, {&depth, 1}, {&u, 1}, {&v, 1});
+    return u;
+  };
+  const auto water = open(path, {{"depth_m", plain(5.0)}});
+  EXPECT_NEAR(met(*water, 12), 0.12, float_rounding);
+  EXPECT_SAYS(complaint([&] { met(*water, 21); }), "no current at a depth of 21 m");
+  EXPECT_SAYS(complaint([&] { met(*water, 4); }), "levels run from 5 to 20 m");
+  const auto clamped = open(path, {{"outside", clamp}});
+  EXPECT_NEAR(met(*clamped, 21), 0.2, float_rounding);
+  EXPECT_NEAR(met(*clamped, 4), 0.05, float_rounding);
+}
+
+TEST(NetcdfCurrent, WithoutLevelsIsTheSameAtEveryDepth) {
+  File file;
+  const auto water = open(file.write("surface.nc"));
+  const double x = 50, y = 50, depth = 100;
+  Vector2d velocity;
+  water->sample_at(0, {&x, 1}, {&y, 1}, {&depth, 1}, {&velocity.x(), 1}, {&velocity.y(), 1});
+  EXPECT_EQ(velocity, at(*water, 0, x, y));
+}
+
 TEST(NetcdfCurrent, RefusesDepthsThatASingleLevelDoesNotHave) {
   File file;
   file.depth = {5};
