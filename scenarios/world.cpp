@@ -57,6 +57,8 @@ World::World(const Scenario& scenario, int threads, const BehaviourHook& hook)
   logbooks_.resize(n);
   lost_s_.assign(n, -1.0);
   arrived_s_.assign(n, -1.0);
+  empty_s_.assign(n, -1.0);
+  last_propulsion_j_.resize(n);
   if (scenario.ping.carries_state) {
     const double farthest_s = scenario.ping.range_m / scenario.ping.sound_speed_m_s + tick_s;
     reports_kept_ = static_cast<std::size_t>(farthest_s / scenario.ping.period_s) + 2;
@@ -79,11 +81,14 @@ World::World(const Scenario& scenario, int threads, const BehaviourHook& hook)
 World::~World() = default;
 
 double World::propulsion_wh(std::size_t i) const {
-  return swarm_->propulsion_j[i] / joules_per_wh;
+  return (stopped(i) ? last_propulsion_j_[i] : swarm_->propulsion_j[i]) / joules_per_wh;
 }
 
 double World::hotel_wh(std::size_t i) const {
-  return scenario_.energy.hotel_w * (lost(i) ? lost_s_[i] : time_s()) / joules_per_wh;
+  double until_s = time_s();
+  if (lost(i)) until_s = lost_s_[i];
+  if (stopped(i)) until_s = std::min(until_s, empty_s_[i]);
+  return scenario_.energy.hotel_w * until_s / joules_per_wh;
 }
 
 double World::comms_wh(std::size_t i) const {
@@ -147,7 +152,7 @@ std::int64_t World::next_event(std::span<const std::int64_t> looks) const {
   for (const std::int64_t ticks : looks) next = std::min(next, following(ticks));
   if (loss_ticks_ > 0) next = std::min(next, following(loss_ticks_));
   for (std::size_t i = 0; i < size(); ++i) {
-    if (!lost(i)) next = std::min(next, next_emission_[i]);
+    if (!silent(i)) next = std::min(next, next_emission_[i]);
   }
   return next;
 }
@@ -187,7 +192,7 @@ std::int64_t World::emission_tick(std::size_t i, std::int64_t emission) const {
 void World::send_pings() {
   bool indexed = false;
   for (std::size_t i = 0; i < size(); ++i) {
-    if (lost(i) || next_emission_[i] > tick_) continue;
+    if (silent(i) || next_emission_[i] > tick_) continue;
     if (!indexed) {
       // A receiver may come closer by a metre or so while the ping travels.
       grid_.build(swarm_->x_m, swarm_->y_m, scenario_.ping.range_m + 2.0);
@@ -202,7 +207,7 @@ void World::send_pings() {
                             reported(i)};
     const double far = scenario_.ping.range_m + 2.0;
     grid_.near(ping.x_m, ping.y_m, [&](std::size_t receiver) {
-      if (receiver == i || lost(receiver)) return;
+      if (receiver == i || silent(receiver)) return;
       const double dx = swarm_->x_m[receiver] - ping.x_m;
       const double dy = swarm_->y_m[receiver] - ping.y_m;
       const double dz = swarm_->depth_m[receiver] - ping.depth_m;
@@ -235,6 +240,18 @@ void World::note_arrivals(std::size_t first, std::size_t last, double time_s) {
     if (arrived_s_[i] >= 0.0 || lost(i)) continue;
     const Eigen::Vector2d place(swarm_->x_m[i], swarm_->y_m[i]);
     if ((place - *waypoint_).norm() <= scenario_.arrival.radius_m) arrived_s_[i] = time_s;
+  }
+}
+
+void World::note_empty(std::size_t first, std::size_t last, double time_s) {
+  const Energy& energy = scenario_.energy;
+  for (std::size_t i = first; i < last; ++i) {
+    const double spent_j = swarm_->propulsion_j[i] + energy.hotel_w * time_s +
+                           energy.ping_j * static_cast<double>(logbooks_[i].pings_sent);
+    if (spent_j < energy.battery_wh * joules_per_wh || empty_s_[i] >= 0.0 || lost(i)) continue;
+    empty_s_[i] = time_s;
+    last_propulsion_j_[i] = swarm_->propulsion_j[i];
+    if (stopped(i)) commands_[i] = {};
   }
 }
 
@@ -279,6 +296,7 @@ void World::run_block(std::size_t first, std::size_t last, std::int64_t until) {
   Swarm& swarm = *swarm_;
   const std::span<const double> x(swarm.x_m.data() + first, count);
   const std::span<const double> y(swarm.y_m.data() + first, count);
+  const std::span<const double> depth(swarm.depth_m.data() + first, count);
   const std::span<double> u(u_m_s_.data() + first, count);
   const std::span<double> v(v_m_s_.data() + first, count);
   double x_before[block_size], y_before[block_size];
@@ -286,7 +304,7 @@ void World::run_block(std::size_t first, std::size_t last, std::int64_t until) {
   for (std::int64_t tick = tick_; tick < until; ++tick) {
     const bool guided = tick % guidance_ticks_ == 0;
     for (std::size_t i = first; i < last; ++i) {
-      if (lost(i)) continue;
+      if (silent(i)) continue;
       if (tick >= wake_tick_[i]) listen_and_plan(i, tick);
       if (guided) guide(i);
     }
@@ -296,7 +314,6 @@ void World::run_block(std::size_t first, std::size_t last, std::int64_t until) {
       for (std::size_t i = first; i < last; ++i) {
         if (lost(i)) u_m_s_[i] = v_m_s_[i] = 0.0;
       }
-  const std::span<const double> depth(swarm.depth_m.data() + first, count);
     }
     std::ranges::copy(x, x_before);
     std::ranges::copy(y, y_before);
@@ -311,6 +328,7 @@ void World::run_block(std::size_t first, std::size_t last, std::int64_t until) {
       log.thrust_distance_m += swarm.speed_m_s[i] >= moving_m_s ? path : 0.0;
       log.thrusting_s += commands_[i].thrust ? tick_s : 0.0;
     }
+    note_empty(first, last, static_cast<double>(tick + 1) * tick_s);
     if (waypoint_) note_arrivals(first, last, static_cast<double>(tick + 1) * tick_s);
   }
 }

@@ -74,6 +74,13 @@ class World {
   const formations::Planner& planner(std::size_t i) const { return planners_[i]; }
   const formations::Command& command(std::size_t i) const { return commands_[i]; }
 
+  /// When a vehicle's energy pack was empty, or negative. It then stands still in the water, unless
+  /// energy.battery is "ignored".
+  double empty_s(std::size_t i) const { return empty_s_[i]; }
+  bool stopped(std::size_t i) const {
+    return empty_s_[i] >= 0.0 && scenario_.energy.battery == Energy::Battery::limits;
+  }
+
   /// When a vehicle was first at the behaviour's way-point, or negative.
   double arrived_s(std::size_t i) const { return arrived_s_[i]; }
 
@@ -89,6 +96,9 @@ class World {
   void run_block(std::size_t first, std::size_t last, std::int64_t until);
   void listen_and_plan(std::size_t i, std::int64_t tick);
   void guide(std::size_t i);
+  /// Whether it has gone for good: lost, or its energy pack is empty.
+  bool silent(std::size_t i) const { return lost(i) || stopped(i); }
+  void note_empty(std::size_t first, std::size_t last, double time_s);
   void note_arrivals(std::size_t first, std::size_t last, double time_s);
   bool all_arrived() const;
   std::int64_t emission_tick(std::size_t i, std::int64_t emission) const;
@@ -119,6 +129,8 @@ class World {
   std::vector<Logbook> logbooks_;
   std::vector<double> lost_s_;  // when a vehicle was lost, or negative
   std::vector<double> arrived_s_;
+  std::vector<double> empty_s_;
+  std::vector<double> last_propulsion_j_;      // at that time
   std::vector<formations::OwnState> reports_;  // the last `reports_kept_` of each vehicle
   std::size_t reports_kept_ = 0;
   std::size_t lost_count_ = 0;

@@ -19,7 +19,7 @@ class DrifterSwarm final : public Swarm {
                const RandomStreams& random, double tick_s)
       : Swarm(starts.size()),
         type_(type),
-        power_w_(energy),
+        power_w_(energy, Energy::Law::cubic),
         random_(random),
         tick_s_(tick_s),
         steps_(whole_times(tick_s, type.step_s)),
@@ -155,7 +155,7 @@ class DrifterSwarm final : public Swarm {
     x_m[i] += path * along.x();
     y_m[i] += path * along.y();
     motor.ahead = half * along;
-    propulsion_j[i] += power_w_(0.5 * (before + speed), 0.0) * tick_s_;
+    propulsion_j[i] += power_w_(0.5 * (before + speed), 0.0, 0.0, 0.0) * tick_s_;
   }
 
   void thrust(std::size_t i, const Command& command, std::int64_t tick) {
@@ -169,6 +169,7 @@ class DrifterSwarm final : public Swarm {
     }
     const double dt = type_.step_s;
     double heading = heading_rad[i], speed = speed_m_s[i], energy = 0.0;
+    double sustained = sustained_m_s(motor.surge_n);
     Eigen::Vector2d moved = Eigen::Vector2d::Zero(), ahead = motor.ahead;
     const auto rate = [&] { return motor.heading_thrust * turn_rate_ + motor.noise_rad_s; };
     Turn half(0.5 * dt * rate());
@@ -178,6 +179,7 @@ class DrifterSwarm final : public Swarm {
     for (std::int64_t k = 0; k < steps_; ++k) {
       if (until_control-- == 0) {
         control(motor, course - heading, wanted, command.acceleration_m_s2);
+        sustained = sustained_m_s(motor.surge_n);
         half = Turn(0.5 * dt * rate());
         until_control = controller_steps_ - 1;
       }
@@ -187,7 +189,7 @@ class DrifterSwarm final : public Swarm {
       ahead = half * along;
       heading += dt * rate();
       speed = next;
-      energy += power_w_(speed, motor.heading_thrust) * dt;
+      energy += power_w_(speed, motor.surge_n, sustained, motor.heading_thrust) * dt;
     }
     x_m[i] += moved.x();
     y_m[i] += moved.y();
@@ -225,6 +227,9 @@ class DrifterSwarm final : public Swarm {
         static_cast<double>(static_cast<std::int64_t>(v * knots_per_m_s_)) * type_.drag_knot_m_s;
     return type_.drag_n * (low * low + (v - low) * (2.0 * low + type_.drag_knot_m_s));
   }
+
+  /// The speed at which a thrust balances the drag, without the chords of its map.
+  double sustained_m_s(double thrust_n) const { return std::sqrt(thrust_n / type_.drag_n); }
 
   /// The horizontal part of a path; below the surface the vehicle pitches up and rises along it.
   double rise(std::size_t i, double path) {

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "shoal/core/angles.hpp"
+#include "shoal/scenarios/energy.hpp"
 #include "shoal/scenarios/vehicles/nps_auv/controllers.hpp"
 #include "tests/support/reference_table.hpp"
 
@@ -142,6 +143,26 @@ TEST(NpsAuvModel, IsCarriedByAUniformCurrentAndFeelsNothingOfIt) {
   }
   still.segment<2>(6) += 50.0 * water;
   EXPECT_LT((still - carried).cwiseAbs().maxCoeff(), 1e-9);
+}
+
+TEST(NpsAuvPropulsion, DrawsTheDragTimesTheSpeedAtSteadySpeed) {
+  const PropulsionPower power(Energy{}, Energy::Law::thrust);
+  const double n = 1.0 / nps_auv_speed_per_revolution_m;  // 1 m/s
+  const auto [thrust, speed] = nps_auv_propulsion(n);
+  EXPECT_NEAR(thrust, 0.5 * 1000.0 * 5.3 * 5.3 * 0.00385, 1e-9);  // 54 N
+  EXPECT_NEAR(speed, 1.0, 1e-12);
+  const double drawn = power(1.0, thrust, speed, 0.0);
+  EXPECT_NEAR(drawn, 54.07 / (0.58 * 0.7 * 0.9 * 0.8), 0.02);  // 185 W
+  // The thrust of the equations of motion, at rest.
+  const NpsAuvModel model;
+  EXPECT_NEAR(model.forces(VehicleState::Zero(), {.propeller_rad_s = n})(0), thrust, 1e-9);
+  // At rest and backwards the same revolutions draw the same power.
+  EXPECT_EQ(power(0.0, thrust, speed, 0.0), drawn);
+  const auto [pull, astern] = nps_auv_propulsion(-n);
+  EXPECT_EQ(pull, -thrust);
+  EXPECT_EQ(power(1.0, pull, astern, 0.0), drawn);
+  const auto [twice_thrust, twice_speed] = nps_auv_propulsion(2.0 * n);
+  EXPECT_NEAR(power(0.0, twice_thrust, twice_speed, 0.0), 8.0 * drawn, 1e-9);
 }
 
 TEST(NpsAuvModel, DragsAsternAsAhead) {

@@ -135,6 +135,11 @@ void NpsAuvVariant::declare(Options<NpsAuvVariant>& o) {
            "L of the propeller's C_t: 17.39 ft, or 5.3 (m) as in the MSS toolbox");
 }
 
+NpsAuvPropulsion nps_auv_propulsion(double propeller_rad_s) {
+  const double speed = nps_auv_speed_per_revolution_m * propeller_rad_s;
+  return {k2 * C_d0 * speed * std::abs(speed), speed};
+}
+
 NpsAuvSurge nps_auv_surge() {
   return {mass - k3 * X::u_dot, C_d * k2};
 }

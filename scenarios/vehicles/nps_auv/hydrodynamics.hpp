@@ -72,6 +72,12 @@ inline constexpr double nps_auv_speed_per_revolution_m = 1.832 / 52.359;
 /// Surge: m - X_u' (kg), and the drag coefficient of eq. 42 times rho L^2 / 2 (kg/m).
 struct NpsAuvSurge {
   double mass_kg, drag_kg_m;
+/// The thrust of the propeller (eq. 38 with C28, N) and the speed that it keeps up.
+struct NpsAuvPropulsion {
+  double thrust_n, sustained_m_s;
+};
+NpsAuvPropulsion nps_auv_propulsion(double propeller_rad_s);
+
 };
 NpsAuvSurge nps_auv_surge();
 

@@ -48,7 +48,7 @@ class NpsAuvSwarm final : public Swarm {
       : Swarm(starts.size()),
         model_(type.model),
         controllers_(type.controllers),
-        power_w_(energy),
+        power_w_(energy, Energy::Law::thrust),
         depth_m_(type.depth_m),
         step_s_(type.step_s),
         steps_(whole_times(tick_s, type.step_s)),
@@ -90,7 +90,9 @@ class NpsAuvSwarm final : public Swarm {
         }
         const NpsAuvInputs& inputs = body.inputs.back().inputs;
         body.state = model_.integrate(body.state, inputs, step_s_, water, body.disturbance);
-        propulsion_j[i] += power_w_(body.state(0), 0.0) * step_s_;
+        const NpsAuvPropulsion propulsion = nps_auv_propulsion(inputs.propeller_rad_s);
+        propulsion_j[i] +=
+            power_w_(body.state(0), propulsion.thrust_n, propulsion.sustained_m_s, 0.0) * step_s_;
         if (navigation_->exact()) {
           body.believed = body.state;
         } else {
