@@ -116,6 +116,15 @@ VehicleCovariance simulated_measurement_covariance(const SensorNoise& noise, dou
   return 0.5 * (R + R.transpose());
 }
 
+VehicleState simulated_measurement_memory(const SensorNoise& noise, double period_s) {
+  const double steps = step_per_rate(noise.rate_limit, period_s);
+  VehicleState memory;
+  for (std::size_t i = 0; i < 12; ++i) {
+    memory(static_cast<int>(i)) = sensor_statistics(sensors[i], noise.faults, steps).memory();
+  }
+  return memory;
+}
+
 BodyCovariance simulated_disturbance_covariance(const ProcessNoise& noise, double period_s,
                                                 NoiseModel model) {
   static Simulated<std::pair<RateLimit, double>, DisturbanceStatistics> simulated;

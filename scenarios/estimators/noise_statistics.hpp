@@ -1,5 +1,7 @@
 #pragma once
 
+#include <algorithm>
+
 #include "shoal/scenarios/estimators/process_noise.hpp"
 #include "shoal/scenarios/estimators/sensor_noise.hpp"
 
@@ -16,8 +18,9 @@ namespace shoal::scenarios {
 /// it is about 7, and the errors are no larger. The price: a single sample has to be several times
 /// further off before it counts as an outlier.
 enum class NoiseModel {
-  marginal,  ///< the variance of a sample
-  white,     ///< the variance of white noise whose mean over a long time varies as much
+  marginal,  ///< white, with the variance of a sample
+  white,     ///< white, with the variance whose mean over a long time varies as much
+  coloured,  ///< first-order Gauss-Markov, with the variance of a sample and of long means
 };
 
 struct ChannelStatistics {
@@ -26,6 +29,9 @@ struct ChannelStatistics {
   double fault_share;  ///< of all samples
 
   double of(NoiseModel model) const { return model == NoiseModel::white ? white : variance; }
+  /// The correlation from sample to sample of the Gauss-Markov process with both variances, whose
+  /// sum over all lags is (1 + phi) / (1 - phi).
+  double memory() const { return std::max(0.0, (white - variance) / (white + variance)); }
 };
 
 /// Of one channel, with `steps` as step_per_rate() says.
@@ -35,6 +41,9 @@ ChannelStatistics simulated_statistics(const GaussMarkov& channel, double steps)
 /// noise that is switched off, which a vehicle does not know.
 VehicleCovariance simulated_measurement_covariance(const SensorNoise& noise, double period_s,
                                                    NoiseModel model);
+
+/// Correlation of each measurement's noise with its own noise a sample before.
+VehicleState simulated_measurement_memory(const SensorNoise& noise, double period_s);
 
 /// The covariance of the disturbing acceleration, (m/s^2)^2 and (rad/s^2)^2.
 BodyCovariance simulated_disturbance_covariance(const ProcessNoise& noise, double period_s,

@@ -10,9 +10,10 @@ class PerfectNavigation final : public Navigation {
   bool exact() const override { return true; }
 
   const Estimate& sample(std::size_t vehicle, std::uint64_t, const VehicleState& truth,
-                         const ProcessRef&) override {
+                         const Eigen::Vector2d& water, const ProcessRef&) override {
     Estimate& estimate = estimates_[vehicle];
     estimate.state = estimate.measured = truth;
+    estimate.water = water;
     return estimate;
   }
 

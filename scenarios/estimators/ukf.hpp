@@ -36,6 +36,9 @@ struct UkfSettings {
   UkfScaling scaling;
   Eigen::Matrix<double, N, N> process_covariance;      ///< R_v, added in every prediction
   Eigen::Matrix<double, M, M> measurement_covariance;  ///< R_n
+  /// Correlation of each measurement's noise with its own noise a step before; 0: white. R_n is
+  /// then the covariance of a single sample.
+  Eigen::Matrix<double, M, 1> measurement_memory = Eigen::Matrix<double, M, 1>::Zero();
   std::array<bool, N> state_is_angle{};
   std::array<bool, M> measurement_is_angle{};
   OutlierGate gate;
@@ -57,6 +60,10 @@ struct UkfUpdate {
 
 /// Scaled unscented Kalman filter with additive noise: Barisic et al. 2011, Table 2, corrected by
 /// C47-C52. Allocates nothing.
+///
+/// Measurement noise with a memory, n(k+1) = Phi n(k) + w, is made white by differences (Bryson and
+/// Henrikson 1968): given the state before, y(k+1) - Phi y(k) = h(x(k+1)) - Phi h(x(k)) + w. A
+/// value whose predecessor was not used starts afresh, with R_n.
 template <int N, int M>
 class Ukf {
  public:
@@ -76,6 +83,10 @@ class Ukf {
   template <class Process>
   UkfStatus predict(const Process& process);
 
+  /// The same where measurement noise has a memory; `measure` is that of the last correct().
+  template <class Process, class Measure>
+  UkfStatus predict(const Process& process, const Measure& measure);
+
   /// Measurement update; `measure` is any callable State -> Measurement. Values of y that are not
   /// finite are missing: their rows are deleted (C51), and without any the prediction stands.
   template <class Measure>
@@ -92,9 +103,15 @@ class Ukf {
   using StatePoints = Eigen::Matrix<double, N, points>;
   using MeasurementPoints = Eigen::Matrix<double, M, points>;
 
+  using CrossCovariance = Eigen::Matrix<double, N, M>;
+  using MeasurementCovariance = Eigen::Matrix<double, M, M>;
+
   UkfStatus draw();
   UkfStatus keep(const State& x, StateCovariance& P);
-  void gate(Eigen::Matrix<double, N, M>& P_xy, StateCovariance& P);
+  template <class Process>
+  UkfStatus carry(const Process& process, UkfStatus drawn);
+  void subtract_memory(CrossCovariance& P_xy);
+  void gate(CrossCovariance& P_xy, StateCovariance& P);
 
   Settings settings_;
   SigmaWeights weights_;
@@ -104,6 +121,13 @@ class Ukf {
   MeasurementPoints Y_;
   Update update_;
   std::array<int, M> rejections_{};  // in a row
+
+  // Of the step before, where noise has a memory: what was measured and which of it was used, and
+  // what the state after it had led to expect, with its covariances.
+  Measurement last_y_, last_expected_;
+  std::bitset<M> last_used_, remembered_;
+  CrossCovariance state_with_last_;
+  MeasurementCovariance last_covariance_, noise_;
 };
 
 }  // namespace shoal::scenarios

@@ -40,15 +40,23 @@ Eigen::Matrix<double, N, 1> centre(Eigen::Matrix<double, N, Points>& points,
   return mean;
 }
 
-/// sum of w_c d d^T over the differences d of all points from their mean.
+/// sum of w_c d e^T over the differences d and e of all points from their means.
+template <int N, int M, int Points>
+Eigen::Matrix<double, N, M> spread(const Eigen::Matrix<double, N, Points>& d,
+                                   const Eigen::Matrix<double, M, Points>& e,
+                                   const SigmaWeights& weights) {
+  Eigen::Matrix<double, N, M> sum;
+  sum.noalias() = weights.other * (d.template rightCols<Points - 1>() *
+                                   e.template rightCols<Points - 1>().transpose());
+  sum.noalias() += (weights.covariance_centre * d.col(0)) * e.col(0).transpose();
+  return sum;
+}
+
+/// sum of w_c d d^T.
 template <int N, int Points>
 Eigen::Matrix<double, N, N> spread(const Eigen::Matrix<double, N, Points>& d,
                                    const SigmaWeights& weights) {
-  const auto others = d.template rightCols<Points - 1>();
-  Eigen::Matrix<double, N, N> sum;
-  sum.noalias() = weights.other * (others * others.transpose());
-  sum.noalias() += (weights.covariance_centre * d.col(0)) * d.col(0).transpose();
-  return sum;
+  return spread<N, N, Points>(d, d, weights);
 }
 
 template <class Matrix>
@@ -63,6 +71,10 @@ Ukf<N, M>::Ukf(const Settings& settings, const State& x, const StateCovariance& 
     : settings_(settings), weights_(sigma_weights(N, settings.scaling)) {
   require_covariance<N>(settings_.process_covariance, "ukf: the process covariance R_v");
   require_covariance<M>(settings_.measurement_covariance, "ukf: the measurement covariance R_n");
+  for (int i = 0; i < M; ++i) {
+    if (settings_.measurement_memory(i) >= 0.0 && settings_.measurement_memory(i) < 1.0) continue;
+    throw InputError("ukf: the memory of measurement noise takes correlations in [0, 1)");
+  }
   if (!(settings_.gate.sigma >= 0.0) || settings_.gate.patience < 1) {
     throw InputError("ukf: the outlier gate takes sigma >= 0 and a patience of at least 1");
   }
@@ -78,6 +90,8 @@ void Ukf<N, M>::restart(const State& x, const StateCovariance& P) {
   P_ = P;
   lower_root<N>(P_, S_);
   rejections_.fill(0);
+  last_used_.reset();
+  remembered_.reset();
 }
 
 template <int N, int M>
@@ -120,7 +134,27 @@ UkfStatus Ukf<N, M>::keep(const State& x, StateCovariance& P) {
 template <int N, int M>
 template <class Process>
 UkfStatus Ukf<N, M>::predict(const Process& process) {
+  remembered_.reset();
+  return carry(process, draw());
+}
+
+template <int N, int M>
+template <class Process, class Measure>
+UkfStatus Ukf<N, M>::predict(const Process& process, const Measure& measure) {
   const UkfStatus drawn = draw();
+  remembered_ = last_used_;
+  if (remembered_.none()) return carry(process, drawn);
+  for (int k = 0; k < points; ++k) Y_.col(k) = Measurement(measure(State(X_.col(k))));
+  last_expected_ = detail::centre<M, points>(Y_, settings_.measurement_is_angle, weights_.other);
+  last_covariance_ = detail::spread<M, points>(Y_, weights_);
+  const UkfStatus carried = carry(process, drawn);
+  state_with_last_ = detail::spread<N, M, points>(X_, Y_, weights_);
+  return carried;
+}
+
+template <int N, int M>
+template <class Process>
+UkfStatus Ukf<N, M>::carry(const Process& process, UkfStatus drawn) {
   for (int k = 0; k < points; ++k) X_.col(k) = State(process(State(X_.col(k))));
   const State x = detail::centre<N, points>(X_, settings_.state_is_angle, weights_.other);
   StateCovariance P = detail::spread<N, points>(X_, weights_);
@@ -128,8 +162,41 @@ UkfStatus Ukf<N, M>::predict(const Process& process) {
   return std::max(drawn, keep(x, P));
 }
 
+// Turns the innovation of y into that of y - Phi y(k-1), and the covariances with it.
 template <int N, int M>
-void Ukf<N, M>::gate(Eigen::Matrix<double, N, M>& P_xy, StateCovariance& P) {
+void Ukf<N, M>::subtract_memory(CrossCovariance& P_xy) {
+  Measurement phi = Measurement::Zero();
+  for (int i = 0; i < M; ++i) {
+    if (remembered_[static_cast<std::size_t>(i)]) phi(i) = settings_.measurement_memory(i);
+  }
+  Measurement before = last_y_ - last_expected_;
+  detail::wrap<M>(before, settings_.measurement_is_angle);
+  update_.innovation -= (phi.array() == 0.0).select(0.0, phi.cwiseProduct(before));
+
+  // cov(h(x), h(x(k-1))) = H cov(x, h(x(k-1))), with H the regression of h on the prior's points.
+  CrossCovariance scaled = state_with_last_;
+  for (int j = 0; j < N; ++j) {
+    scaled.row(j) -= S_.row(j).head(j) * scaled.topRows(j);
+    if (S_(j, j) > 0.0) {
+      scaled.row(j) /= S_(j, j);
+    } else {
+      scaled.row(j).setZero();
+    }
+  }
+  const MeasurementCovariance with_last =
+      (weights_.other * weights_.gamma) *
+      (Y_.template middleCols<N>(1) - Y_.template rightCols<N>()) * scaled;
+  auto& P_y = update_.innovation_covariance;
+  const MeasurementCovariance remembered = with_last * phi.asDiagonal();
+  P_y -= remembered + remembered.transpose();
+  P_y += phi.asDiagonal() * last_covariance_ * phi.asDiagonal();
+  const auto& R = settings_.measurement_covariance;
+  noise_ = R - phi.asDiagonal() * R * phi.asDiagonal();
+  P_xy -= state_with_last_ * phi.asDiagonal();
+}
+
+template <int N, int M>
+void Ukf<N, M>::gate(CrossCovariance& P_xy, StateCovariance& P) {
   const double sigma = settings_.gate.sigma;
   if (sigma == 0.0) return;
   auto& P_y = update_.innovation_covariance;
@@ -143,7 +210,7 @@ void Ukf<N, M>::gate(Eigen::Matrix<double, N, M>& P_xy, StateCovariance& P) {
     update_.readmitted.set(bit);
     // The prior is widened along what this value tells of, so that all three covariances stay those
     // of one joint distribution.
-    const Measurement s = P_y.col(i) - settings_.measurement_covariance.col(i);
+    const Measurement s = P_y.col(i) - noise_.col(i);
     if (!(s(i) > 0.0)) continue;
     const State p = P_xy.col(i);
     const double nu = update_.innovation(i);
@@ -175,11 +242,19 @@ const typename Ukf<N, M>::Update& Ukf<N, M>::correct(const Measurement& y, const
   for (int k = 0; k < points; ++k) Y_.col(k) = Measurement(measure(State(X_.col(k))));
   const Measurement expected =
       detail::centre<M, points>(Y_, settings_.measurement_is_angle, weights_.other);
-  update_.innovation_covariance =
-      detail::spread<M, points>(Y_, weights_) + settings_.measurement_covariance;  // C50
-  detail::symmetrise(update_.innovation_covariance);
+  // The points lie at +-gamma S about the prior, the central one upon it.
+  CrossCovariance P_xy;
+  P_xy.noalias() = (weights_.other * weights_.gamma) * S_ *
+                   (Y_.template middleCols<N>(1) - Y_.template rightCols<N>()).transpose();
+  update_.innovation_covariance = detail::spread<M, points>(Y_, weights_);
   update_.innovation = y - expected;
   detail::wrap<M>(update_.innovation, settings_.measurement_is_angle);
+  noise_ = settings_.measurement_covariance;
+  if (remembered_.any()) subtract_memory(P_xy);
+  remembered_.reset();
+  update_.innovation_covariance += noise_;  // C50
+  detail::symmetrise(update_.innovation_covariance);
+  last_used_.reset();
   if (!expected.allFinite() || !update_.innovation_covariance.allFinite()) {
     update_.status = UkfStatus::lost;
     return update_;
@@ -190,10 +265,6 @@ const typename Ukf<N, M>::Update& Ukf<N, M>::correct(const Measurement& y, const
     update_.innovation(i) = std::numeric_limits<double>::quiet_NaN();
   }
 
-  // The points lie at +-gamma S about the prior, the central one upon it.
-  Eigen::Matrix<double, N, M> P_xy;
-  P_xy.noalias() = (weights_.other * weights_.gamma) * S_ *
-                   (Y_.template middleCols<N>(1) - Y_.template rightCols<N>()).transpose();
   StateCovariance P = P_;
   gate(P_xy, P);
 
@@ -231,6 +302,11 @@ const typename Ukf<N, M>::Update& Ukf<N, M>::correct(const Measurement& y, const
   update_.gain = W.transpose();
   detail::wrap<N>(x, settings_.state_is_angle);
   update_.status = std::max(update_.status, keep(x, P));
+  last_y_ = y;
+  for (int i = 0; i < M; ++i) {
+    const auto bit = static_cast<std::size_t>(i);
+    last_used_.set(bit, !unused[bit] && settings_.measurement_memory(i) > 0.0);
+  }
   return update_;
 }
 

@@ -35,6 +35,11 @@ class Swarm {
     return believed_m_.empty() ? Eigen::Vector2d(x_m[i], y_m[i]) : believed_m_[i];
   }
   virtual formations::OwnState own_state(std::size_t i) const = 0;
+  /// The water's velocity (east and north) that a vehicle with an estimator last moved in.
+  virtual Eigen::Vector2d water_m_s(std::size_t i) const {
+    (void)i;
+    return Eigen::Vector2d::Zero();
+  }
   /// The last sample of its estimator, if its type has one.
   virtual const Estimate* estimate(std::size_t i) const {
     (void)i;

@@ -75,20 +75,49 @@ TEST(KinematicModel, TurnsWithTheBodyRatesAsRotationMatricesDo) {
   EXPECT_LT((moved.segment<3>(6) / dt - velocity).norm(), 1e-3);
 }
 
-TEST(Recentred, GoesWhereTheCostlyModelGoesAtTheCentre) {
+TEST(Linearised, GoesWhereTheCostlyModelGoesAtTheCentreAndBesideIt) {
   const tests::SluggishVehicle model{0.5, 1.5, 0.1};
   const VehicleState centre = state({1, 0.1, 0, 0, 0.02, 0.05, 3, 4, 5, 0.1, 0.05, 3.13});
   VehicleState carried = model(centre);
   carried(11) = wrapped(carried(11));  // it comes round
-  const Recentred recentred(KinematicModel{0.5}, centre, carried);
-  const VehicleState at_centre = recentred(centre);
-  EXPECT_LT((at_centre - model(centre)).norm(), 1e-14);
-  // Beside it, within what the lags make of the deviation.
+  const Eigen::Vector2d water(0.3, -0.2);
+  const auto belief = [&](const VehicleState& x) {
+    return (VehicleBelief() << x, water).finished();
+  };
+  carried.segment<2>(6) += 0.5 * water;
+  const Linearised linearised(KinematicModel{0.5}, belief(centre), carried, model.tangent(centre));
+  const auto off = [&](const VehicleState& x) {
+    const VehicleBelief there = linearised(belief(x));
+    EXPECT_EQ(there.tail<2>(), water);
+    return (there.head<12>() - model(x, water)).norm();
+  };
+  EXPECT_LT(off(centre), 1e-14);
   VehicleState beside = centre;
-  beside(0) += 0.05;
+  beside.head<6>() << 1.05, 0.05, 0.05, 0.02, -0.02, 0.1;
+  beside(9) += 0.05;
+  beside(10) -= 0.05;
   beside(11) -= 0.1;
-  EXPECT_LT((recentred(beside) - model(beside)).norm(), 0.005);
-  EXPECT_GT((KinematicModel{0.5}(beside)-model(beside)).norm(), 0.02);
+  EXPECT_LT(off(beside), 0.005);
+  EXPECT_GT((KinematicModel{0.5}(beside, water) - model(beside, water)).norm(), 0.02);
+}
+
+TEST(KinematicModel, IsCarriedByTheWater) {
+  const VehicleState x = state({1, 0.1, 0, 0, 0.02, 0.05, 3, 4, 5, 0.1, 0.05, 3.13});
+  const Eigen::Vector2d water(0.3, -0.2);
+  VehicleState carried = KinematicModel{0.5}(x);
+  carried.segment<2>(6) += 0.5 * water;
+  EXPECT_LT((KinematicModel{0.5}(x, water) - carried).norm(), 1e-15);
+  const VehicleBelief believed = (VehicleBelief() << x, water).finished();
+  const VehicleBelief expected = (VehicleBelief() << carried, water).finished();
+  EXPECT_LT((KinematicModel{0.5}(believed)-expected).norm(), 1e-15);
+}
+
+TEST(KinematicModel, TurnsALevelVelocityIntoTheBodyAndBack) {
+  const Eigen::Vector3d angles(0.3, -0.4, 2.0);
+  const Eigen::Vector2d level(0.3, -0.2);
+  const Eigen::Vector3d back =
+      KinematicModel::velocity(angles, KinematicModel::in_body(angles, level));
+  EXPECT_LT((back - Eigen::Vector3d(0.3, -0.2, 0.0)).norm(), 1e-15);
 }
 
 }  // namespace

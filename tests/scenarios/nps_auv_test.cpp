@@ -145,6 +145,23 @@ TEST(NpsAuvModel, IsCarriedByAUniformCurrentAndFeelsNothingOfIt) {
   EXPECT_LT((still - carried).cwiseAbs().maxCoeff(), 1e-9);
 }
 
+TEST(NpsAuvModel, TangentIsTheSlopeOfItsAccelerations) {
+  const NpsAuvModel model;
+  const NpsAuvInputs in{.rudder_rad = 0.05, .propeller_rad_s = 45.0};
+  VehicleState x = VehicleState::Zero();
+  x << 1.2, 0.1, -0.05, 0.02, -0.03, 0.05, 0, 0, 0, 0.1, -0.05, 1.0;
+  const BodyTangent tangent = model.tangent(x, in);
+  for (int k = 0; k < 8; ++k) {
+    const int state = k < 6 ? k : k + 3;
+    VehicleState up = x, down = x;
+    up(state) += 1e-4;
+    down(state) -= 1e-4;
+    const Eigen::Matrix<double, 6, 1> slope =
+        (model.derivative(up, in) - model.derivative(down, in)).head<6>() / 2e-4;
+    EXPECT_LT((tangent.col(k) - slope).norm(), 1e-4 * (1.0 + slope.norm())) << k;
+  }
+}
+
 TEST(NpsAuvPropulsion, DrawsTheDragTimesTheSpeedAtSteadySpeed) {
   const PropulsionPower power(Energy{}, Energy::Law::thrust);
   const double n = 1.0 / nps_auv_speed_per_revolution_m;  // 1 m/s

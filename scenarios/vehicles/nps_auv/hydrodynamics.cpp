@@ -239,6 +239,18 @@ VehicleState NpsAuvModel::derivative(const VehicleState& state, const NpsAuvInpu
   return rate;
 }
 
+BodyTangent NpsAuvModel::tangent(const VehicleState& state, const NpsAuvInputs& inputs) const {
+  constexpr double step = 1e-6;
+  const Vector6 here = forces(state, inputs);
+  BodyTangent change;
+  for (int k = 0; k < 8; ++k) {
+    VehicleState beside = state;
+    beside(k < 6 ? k : k + 3) += step;
+    change.col(k) = (forces(beside, inputs) - here) / step;
+  }
+  return inverse_mass_ * change;
+}
+
 VehicleState NpsAuvModel::integrate(const VehicleState& state, const NpsAuvInputs& inputs,
                                     double step_s, const Eigen::Vector2d& water,
                                     const Vector6& disturbance) const {

@@ -3,7 +3,7 @@
 #include <Eigen/Core>
 
 #include "shoal/core/options.hpp"
-#include "shoal/scenarios/estimators/vehicle_state.hpp"
+#include "shoal/scenarios/estimators/kinematic_model.hpp"
 
 namespace shoal::scenarios {
 
@@ -55,6 +55,9 @@ class NpsAuvModel {
                           const Eigen::Vector2d& water = Eigen::Vector2d::Zero(),
                           const Vector6& disturbance = Vector6::Zero()) const;
 
+  /// How the accelerations of the body change with its velocities, roll and pitch: differences.
+  BodyTangent tangent(const VehicleState& state, const NpsAuvInputs& inputs) const;
+
   /// One step of the classical Runge-Kutta method of fourth order.
   VehicleState integrate(const VehicleState& state, const NpsAuvInputs& inputs, double step_s,
                          const Eigen::Vector2d& water = Eigen::Vector2d::Zero(),
@@ -69,15 +72,15 @@ class NpsAuvModel {
 /// Of the design point of eq. 42: 500 revolutions a minute drive the vehicle at 1.832 m/s (C28).
 inline constexpr double nps_auv_speed_per_revolution_m = 1.832 / 52.359;
 
-/// Surge: m - X_u' (kg), and the drag coefficient of eq. 42 times rho L^2 / 2 (kg/m).
-struct NpsAuvSurge {
-  double mass_kg, drag_kg_m;
 /// The thrust of the propeller (eq. 38 with C28, N) and the speed that it keeps up.
 struct NpsAuvPropulsion {
   double thrust_n, sustained_m_s;
 };
 NpsAuvPropulsion nps_auv_propulsion(double propeller_rad_s);
 
+/// Surge: m - X_u' (kg), and the drag coefficient of eq. 42 times rho L^2 / 2 (kg/m).
+struct NpsAuvSurge {
+  double mass_kg, drag_kg_m;
 };
 NpsAuvSurge nps_auv_surge();
 

@@ -70,8 +70,8 @@ class NpsAuvSwarm final : public Swarm {
       Body& body = bodies_[i];
       body.state = states[i];
       body.inputs.reserve(static_cast<std::size_t>(estimator_steps_ / controller_steps_) + 2);
-      body.estimate = &navigation_->sample(i, 0, body.state,
-                                           [](const VehicleState& x) -> VehicleState { return x; });
+      body.estimate =
+          &navigation_->sample(i, 0, body.state, body.water, OwnModel{*this, body, 0, 0});
       body.believed = body.estimate->state;
       body.disturbance = disturbances_.sample(i, 0);
       show(i);
@@ -83,20 +83,20 @@ class NpsAuvSwarm final : public Swarm {
                std::span<const double> v_m_s) override {
     for (std::size_t i = first; i < last; ++i) {
       Body& body = bodies_[i];
-      const Eigen::Vector2d water(v_m_s[i], u_m_s[i]);
+      body.water = {v_m_s[i], u_m_s[i]};
       for (std::int64_t k = tick * steps_; k < (tick + 1) * steps_; ++k) {
         if (k % controller_steps_ == 0 || body.inputs.empty()) {
           body.inputs.push_back({k, control(body.believed, commands[i])});
         }
         const NpsAuvInputs& inputs = body.inputs.back().inputs;
-        body.state = model_.integrate(body.state, inputs, step_s_, water, body.disturbance);
+        body.state = model_.integrate(body.state, inputs, step_s_, body.water, body.disturbance);
         const NpsAuvPropulsion propulsion = nps_auv_propulsion(inputs.propeller_rad_s);
         propulsion_j[i] +=
             power_w_(body.state(0), propulsion.thrust_n, propulsion.sustained_m_s, 0.0) * step_s_;
         if (navigation_->exact()) {
           body.believed = body.state;
         } else {
-          body.believed = model_.integrate(body.believed, inputs, step_s_);
+          body.believed = model_.integrate(body.believed, inputs, step_s_, body.estimate->water);
         }
         if ((k + 1) % estimator_steps_ == 0) sample(i, (k + 1) / estimator_steps_);
       }
@@ -106,13 +106,16 @@ class NpsAuvSwarm final : public Swarm {
 
   formations::OwnState own_state(std::size_t i) const override {
     const VehicleState& x = bodies_[i].believed;
-    const Eigen::Vector3d over_ground = KinematicModel::velocity(x.tail<3>(), x.head<3>());
+    Eigen::Vector3d over_ground = KinematicModel::velocity(x.tail<3>(), x.head<3>());
+    over_ground.head<2>() += navigation_->exact() ? bodies_[i].water : bodies_[i].estimate->water;
     return {.position = {x(7), x(6)},
             .velocity = {over_ground.y(), over_ground.x()},
             .heading_rad = turned_over(x(11)),
             .speed_m_s = x(0),
             .turn_rate_rad_s = -KinematicModel::euler_rates(x.tail<3>(), x)(2)};
   }
+
+  Eigen::Vector2d water_m_s(std::size_t i) const override { return bodies_[i].water.reverse(); }
 
   const Estimate* estimate(std::size_t i) const override {
     return navigation_->exact() ? nullptr : bodies_[i].estimate;
@@ -127,9 +130,33 @@ class NpsAuvSwarm final : public Swarm {
   struct Body {
     VehicleState state;     // the truth; velocities are relative to the water
     VehicleState believed;  // at the last sample, and carried on by the own model since
+    Eigen::Vector2d water = Eigen::Vector2d::Zero();  // the truth: north and east
     const Estimate* estimate = nullptr;
     BodyAcceleration disturbance;
     std::vector<Held> inputs;  // since the last sample
+  };
+
+  /// What a vehicle expects of itself between two samples, under the inputs that held.
+  struct OwnModel {
+    const NpsAuvSwarm& swarm;
+    const Body& body;
+    std::int64_t begin, end;  // steps
+
+    VehicleState operator()(const VehicleState& x, const Eigen::Vector2d& water) const {
+      if (x == body.estimate->state && water == body.estimate->water) {
+        return body.believed;  // has been on the way all along
+      }
+      VehicleState moved = x;
+      std::size_t held = 0;
+      for (std::int64_t step = begin; step < end; ++step) {
+        while (held + 1 < body.inputs.size() && body.inputs[held + 1].from <= step) ++held;
+        moved = swarm.model_.integrate(moved, body.inputs[held].inputs, swarm.step_s_, water);
+      }
+      return moved;
+    }
+    BodyTangent tangent(const VehicleState& x) const {
+      return swarm.model_.tangent(x, body.inputs.back().inputs);
+    }
   };
 
   NpsAuvInputs control(const VehicleState& believed, const Command& command) const {
@@ -144,19 +171,9 @@ class NpsAuvSwarm final : public Swarm {
   void sample(std::size_t i, std::int64_t k) {
     Body& body = bodies_[i];
     const std::int64_t end = k * estimator_steps_, begin = end - estimator_steps_;
-    const VehicleState last = body.estimate->state;
-    const auto carried = [&](const VehicleState& x) -> VehicleState {
-      if (x == last) return body.believed;  // has been on the way all along
-      VehicleState moved = x;
-      std::size_t held = 0;
-      for (std::int64_t step = begin; step < end; ++step) {
-        while (held + 1 < body.inputs.size() && body.inputs[held + 1].from <= step) ++held;
-        moved = model_.integrate(moved, body.inputs[held].inputs, step_s_);
-      }
-      return moved;
-    };
     const auto number = static_cast<std::uint64_t>(k);
-    body.estimate = &navigation_->sample(i, number, body.state, carried);
+    body.estimate =
+        &navigation_->sample(i, number, body.state, body.water, OwnModel{*this, body, begin, end});
     body.believed = body.estimate->state;
     body.disturbance = disturbances_.sample(i, number);
     body.inputs.erase(body.inputs.begin(), body.inputs.end() - 1);
