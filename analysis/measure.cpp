@@ -16,6 +16,14 @@ std::optional<double> Results::at(std::string_view name) const {
   throw std::out_of_range("no measure is called " + std::string(name));
 }
 
+const scenarios::Series& Results::earlier_series(std::string_view name) const {
+  const auto found = std::ranges::find(series, name, &scenarios::Series::name);
+  if (found == series.end()) {
+    throw std::logic_error("no earlier measure added the series " + std::string(name));
+  }
+  return *found;
+}
+
 double Measure::log_interval_s(const scenarios::World& world) {
   const double tick = world.scenario().trial.tick_s;
   return tick * std::max(1.0, std::round(5.0 / tick));

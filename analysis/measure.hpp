@@ -40,6 +40,8 @@ struct Results {
   }
   /// Throws std::out_of_range if no measure has that name.
   std::optional<double> at(std::string_view name) const;
+  /// Numbers against time that an earlier measure added. Throws std::logic_error if none did.
+  const scenarios::Series& earlier_series(std::string_view name) const;
 };
 
 /// Measures something of a trial. One file each; enrolled ones are part of every trial.
@@ -61,7 +63,8 @@ class Measure : public scenarios::Observer {
   double every_s() const override { return every_s_; }
   void observe(const scenarios::World& world) override { (void)world; }
 
-  /// Called once when the trial has ended.
+  /// Called once when the trial has ended, in the order of the measures' names: `results` holds
+  /// what earlier ones said.
   virtual void finish(const scenarios::World& world, Results& results) const = 0;
 
  protected:

@@ -57,6 +57,8 @@ class PingFilter {
   /// The neighbours relative to the own position, in the order in which they were first heard.
   /// The span is valid until the next call.
   std::span<const Neighbour> neighbours(double time_s, const Eigen::Vector2d& own_position);
+  /// The same again, as last returned.
+  std::span<const Neighbour> last_neighbours() const { return neighbours_; }
 
  private:
   struct Sample {

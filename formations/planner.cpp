@@ -49,6 +49,7 @@ void Planner::receive(const Ping& ping, const Eigen::Vector2d& own_position) {
 const Target& Planner::plan(double time_s, const OwnState& own) {
   target_ = behaviour_->step({filter_.neighbours(time_s, own.position), own_slot_, own, obstacles_},
                              *plan_);
+  last_plan_s_ = time_s;
   target_position_ = own.position + target_.position;
   return target_;
 }

@@ -4,6 +4,7 @@
 #include <limits>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string_view>
 
 #include "shoal/formations/behaviour.hpp"
@@ -43,6 +44,12 @@ class Planner {
   }
   const Target& last_target() const { return target_; }
 
+  /// The neighbours by which plan() last planned, relative to where the vehicle was then. Valid
+  /// until the next plan().
+  std::span<const Neighbour> last_neighbours() const { return filter_.last_neighbours(); }
+  /// When that was; minus infinity before the first plan().
+  double last_plan_s() const { return last_plan_s_; }
+
   int own_slot() const { return own_slot_; }
 
  private:
@@ -52,6 +59,7 @@ class Planner {
   PingFilter filter_;
   Obstacles obstacles_;
   double last_ping_s_ = -std::numeric_limits<double>::infinity();
+  double last_plan_s_ = -std::numeric_limits<double>::infinity();
   Target target_ = Target::hold(Reason::no_neighbour);
   Eigen::Vector2d target_position_ = Eigen::Vector2d::Zero();
 };

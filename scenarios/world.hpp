@@ -73,6 +73,8 @@ class World {
   const Logbook& logbook(std::size_t i) const { return logbooks_[i]; }
   const formations::Planner& planner(std::size_t i) const { return planners_[i]; }
   const formations::Command& command(std::size_t i) const { return commands_[i]; }
+  /// Velocity of the water (m/s, east and north) by which a vehicle last moved; zero before that.
+  Eigen::Vector2d current_m_s(std::size_t i) const { return {u_m_s_[i], v_m_s_[i]}; }
 
   /// When a vehicle's energy pack was empty, or negative. It then stands still in the water, unless
   /// energy.battery is "ignored".

@@ -1,0 +1,57 @@
+#include <algorithm>
+#include <cmath>
+
+#include "shoal/analysis/measure.hpp"
+
+namespace shoal::analysis {
+namespace {
+
+/// Of a matching problem, the size of the search that Rypkema 2015, Alg. 8, makes: every slot is
+/// tried as seed, in every rotation, with a matrix of the distances of all points seen.
+struct SearchSize final : formations::ProblemViewer {
+  std::optional<double> assignments, distances;
+
+  void see(const solvers::Problem&) override {}
+  void see(const solvers::RegistrationProblem&) override {}
+  void see(const solvers::MatchingProblem& problem) override {
+    const auto points = static_cast<double>(problem.points.size());
+    assignments =
+        static_cast<double>(problem.slots.size()) * std::floor(360.0 / problem.delta_theta_deg);
+    distances = *assignments * points * points;
+  }
+};
+
+/// How large the search of a behaviour is that assigns slots (Rypkema 2015, sec. 3.7): that of the
+/// vehicle with the most neighbours, as it last planned. A size, not a time: what bounds rule out
+/// is counted. Nothing for other behaviours.
+class SearchSizeMeasure final : public Measure {
+ public:
+  static void declare(Options<SearchSizeMeasure>&) {}
+
+  std::vector<Quantity> values() const override {
+    return {{"search_assignments", "", "assignments that Alg. 8 solves for a target"},
+            {"search_distances", "", "distances that it computes for them"}};
+  }
+
+  void finish(const scenarios::World& world, Results& results) const override {
+    SearchSize size;
+    std::optional<std::size_t> most;
+    for (std::size_t i = 0; i < world.size(); ++i) {
+      const auto heard = [&](std::size_t of) { return world.planner(of).last_neighbours().size(); };
+      if (!world.lost(i) && (!most || heard(i) > heard(*most))) most = i;
+    }
+    // Behaviours with a way-point want to know of obstacles, too, and assign no slots.
+    if (most && !world.behaviour().waypoint()) {
+      const formations::Planner& planner = world.planner(*most);
+      world.behaviour().pose({planner.last_neighbours(), planner.own_slot()}, world.plan(), size);
+    }
+    results.add("search_assignments", size.assignments);
+    results.add("search_distances", size.distances);
+  }
+};
+
+const Enrol<Measure, SearchSizeMeasure> enrolled{
+    "search_size", "how large the search of a behaviour is that assigns slots"};
+
+}  // namespace
+}  // namespace shoal::analysis
