@@ -83,12 +83,16 @@ def curves(table, request, against):
                 if not rows:
                     continue
                 rows.sort(key=lambda i: places[i])
+                trials = [(places[i], y) for i in rows for y in table.each(column)[i]]
                 x = [places[i] for i in rows]
                 label = ", ".join(words(part) for part in (*key, level) if part)
                 look = {"color": style.colour(line),
                         "linestyle": "-" if line < len(style.COLOURS) else "--"}
                 ax.plot(x, [values[i] for i in rows], label=label or None,
                         marker="." if len(x) < 30 else None, markersize=3, **look)
+                if trials:
+                    ax.plot(*zip(*trials), "o", color=look["color"], markersize=2.2, alpha=0.3,
+                            markeredgewidth=0)
                 ax.fill_between(x, [low[i] for i in rows], [high[i] for i in rows],
                                 color=look["color"], alpha=0.15, linewidth=0)
                 line += 1
@@ -153,6 +157,7 @@ def convergence(table):
 
 
 def points(table, request):
+    """Means with their intervals, and every trial as a point behind them."""
     shown = list(panels(table, request))
     labels = [label for label in table.labels if label != "metric"]
     figure, axes = axes_for(len(shown), min(1.2, 0.18 + 0.07 * len(shown[0][1])))
@@ -163,6 +168,9 @@ def points(table, request):
             value = [table.column(column)[i] for i in inside]
             place = [i + (k - 0.5 * (len(columns) - 1)) * 0.7 / len(columns)
                      for i in range(len(names))]
+            for y, trials in zip(place, [table.each(column)[i] for i in inside]):
+                ax.plot(trials, [y] * len(trials), "o", color=style.colour(k), markersize=2.2,
+                        alpha=0.3, markeredgewidth=0)
             ax.hlines(place, low, high, color=style.colour(k), linewidth=0.9)
             ax.plot(value, place, "o", color=style.colour(k), markersize=3,
                     label=words(level) or None)

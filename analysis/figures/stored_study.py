@@ -37,6 +37,12 @@ class StudyTable:
         return values, values
 
 
+    def each(self, name):
+        """The trials behind each number; none where they are not known."""
+        texts = [row.get(name + "_each") or "" for row in self.rows]
+        return [[float(x) for x in text.split()] for text in texts]
+
+
 def number(text):
     try:
         return float(text)

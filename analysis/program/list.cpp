@@ -26,8 +26,8 @@ void list_sets() {
 
 void list_quantities(const std::vector<analysis::Quantity>& quantities, const char* what) {
   fmt::print("    {}\n", what);
-  for (const auto& [name, unit, meaning] : quantities) {
-    fmt::print("      {:<38} {:<5} {}\n", name, unit, meaning);
+  for (const analysis::Quantity& each : quantities) {
+    fmt::print("      {:<38} {:<5} {}\n", each.name, each.unit, each.meaning);
   }
 }
 

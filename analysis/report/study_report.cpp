@@ -8,6 +8,7 @@
 #include "shoal/analysis/study/claim_text.hpp"
 #include "shoal/analysis/study/study_files.hpp"
 #include "shoal/analysis/study/study_tables.hpp"
+#include "shoal/core/text.hpp"
 #include "shoal/core/whole_file.hpp"
 
 namespace shoal::analysis {
@@ -49,6 +50,46 @@ Json claims(const Judgement& judgement) {
           {"counts", count_lines(judgement)},
           {"note", verdict_note(judgement)},
           {"statements", statements}};
+}
+
+std::string words(const Cell& cell) {
+  if (const auto* text = std::get_if<std::string>(&cell)) return *text;
+  const auto* estimate = std::get_if<Estimate>(&cell);
+  return estimate ? shortest(estimate->value) : "";
+}
+
+/// Of the columns of a table that know the trials behind their numbers: every trial, mean and
+/// interval, row by row.
+Json points(const Table& table) {
+  Json columns = Json::array();
+  for (std::size_t c = 0; c < table.columns.size(); ++c) {
+    Json rows = Json::array();
+    for (const std::vector<Cell>& row : table.rows) {
+      const auto* estimate = std::get_if<Estimate>(&row[c]);
+      if (!estimate || estimate->each.empty()) continue;
+      std::string label;
+      for (const Cell& cell : row) {
+        const auto* other = std::get_if<Estimate>(&cell);
+        if (other && !other->each.empty()) break;  // labels stand before all numbers
+        const std::string text = words(cell);
+        if (!text.empty()) label += (label.empty() ? "" : ", ") + text;
+      }
+      Json shown{{"label", label}, {"value", estimate->value}, {"each", estimate->each}};
+      if (const auto* by = std::get_if<PlusMinus>(&estimate->uncertainty)) {
+        shown["low"] = estimate->value - by->by;
+        shown["high"] = estimate->value + by->by;
+      } else if (const auto* ends = std::get_if<Between>(&estimate->uncertainty)) {
+        shown["low"] = ends->low;
+        shown["high"] = ends->high;
+      }
+      rows.push_back(std::move(shown));
+    }
+    if (rows.empty()) continue;
+    const Column& column = table.columns[c];
+    const std::string title = column.group.empty() ? "" : column.group + ": ";
+    columns.push_back({{"title", title + column.header}, {"unit", column.unit}, {"rows", rows}});
+  }
+  return columns;
 }
 
 /// Which trials are missing from the numbers, and why.
@@ -101,7 +142,9 @@ void write_study_report(const fs::path& folder) {
              Json::parse(read_whole_file(folder / "manifest.json").value_or(""), nullptr, false)}};
   data["tables"] = Json::array();
   for (const Table& table : study_tables(results)) {
-    data["tables"].push_back({{"name", table.name}, {"html", print(table, TableFormat::html)}});
+    data["tables"].push_back({{"name", table.name},
+                              {"html", print(table, TableFormat::html)},
+                              {"points", points(table)}});
   }
   data["claims"] = claims(judged_claims(results, folder));
   write_whole_file(folder / "report.html", whole_page("study.html", data));

@@ -1,5 +1,7 @@
 #include "shoal/analysis/study/cell_table.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <optional>
@@ -12,6 +14,7 @@
 #include "shoal/analysis/study/cells.hpp"
 #include "shoal/analysis/study/confidence.hpp"
 #include "shoal/analysis/study/paired_test.hpp"
+#include "shoal/analysis/study/shape_remark.hpp"
 #include "shoal/analysis/study/slices.hpp"
 #include "shoal/core/text.hpp"
 
@@ -64,7 +67,8 @@ class CellTable {
           for (std::size_t q = 0; q < quantities_.size(); ++q) {
             cells.push_back(cell(joined(column, row), q, step));
             any |= !std::holds_alternative<Missing>(cells.back()) ||
-                   std::get<Missing>(cells.back()).failed > 0;
+                   std::get<Missing>(cells.back()).failed > 0 ||
+                   std::get<Missing>(cells.back()).not_run > 0;
           }
         }
         // Rows of combinations that the study excludes, and of times that no trial reached, say
@@ -129,11 +133,23 @@ class CellTable {
     return column;
   }
 
-  Cell cell(const Place& place, std::size_t quantity, std::size_t step) const {
+  Cell cell(const Place& place, std::size_t quantity, std::size_t step) {
     const Sample sample = slices_.sample(place, question(quantity, step));
-    Cell cell = cell_of(sample.values, sample.failed, request_.statistic);
+    Cell cell = cell_of(sample, request_.statistic);
     if (auto* estimate = std::get_if<Estimate>(&cell)) {
       estimate->best = best_.contains({place, quantity, step});
+      if (sample.times && request_.statistic != Statistic::count) {
+        events_ = true;
+        if (std::isfinite(sample.horizon())) horizons_.insert(sample.horizon());
+      }
+      ++cells_;
+      const auto said = request_.statistic == Statistic::count
+                            ? std::nullopt
+                            : remark_on_shape(sample.restricted(sample.horizon()));
+      if (said) ++remarked_;
+      // Against time, marks and points would be more than one could read.
+      if (said && request_.series.empty()) estimate->remarks.push_back(*said);
+      if (!request_.series.empty()) estimate->each.clear();
     }
     return cell;
   }
@@ -181,7 +197,7 @@ class CellTable {
       std::size_t quantity, step, first_test, tests;
     };
     std::vector<Contest> contests;
-    std::vector<std::vector<double>> differences;  // of each test
+    std::vector<statistics::Differences> differences;  // of each test
     std::set<Place> seen;
     for (const Place& place : slices_.places()) {
       Place others = place;
@@ -198,7 +214,8 @@ class CellTable {
           if (rivals.size() < 2) continue;
           const double sign = request_.best == Best::lowest ? 1.0 : -1.0;
           const auto best = std::ranges::min_element(rivals, {}, [&](const auto& rival) {
-            return sign * statistics::mean(rival.second.values);
+            const Sample& sample = rival.second;
+            return sign * statistics::mean(sample.restricted(sample.horizon()));
           });
           contests.push_back({best->first, q, step, differences.size(), rivals.size() - 1});
           for (auto rival = rivals.begin(); rival != rivals.end(); ++rival) {
@@ -212,6 +229,7 @@ class CellTable {
       p_values.push_back(p.value_or(1.0));
     }
     const std::vector<double> adjusted = statistics::holm(p_values);
+    floor_ = note_on_floor(differences, request_.test);
     for (const Contest& contest : contests) {
       const auto first = adjusted.begin() + static_cast<std::ptrdiff_t>(contest.first_test);
       const bool told = std::all_of(first, first + static_cast<std::ptrdiff_t>(contest.tests),
@@ -234,7 +252,26 @@ class CellTable {
           " mean over " + request_.compare + ", where a " + std::string(name_of(request_.test)) +
           " test of paired differences, corrected by Holm over the table, tells it "
           "from all others at 5 %.");
+      if (floor_) table.notes.push_back(*floor_);
     }
+    if (events_) {
+      table.notes.push_back(
+          "Times to an event: restricted means" + horizon_text() +
+          ", at which trials count that never saw it; in brackets, how many did.");
+    }
+    if (remarked_ > 0) {
+      table.notes.push_back((request_.series.empty()
+                                 ? ""
+                                 : fmt::format("{} of {} cells are so. ", remarked_, cells_)) +
+                            note_on_shapes());
+    }
+  }
+
+  /// Up to when.
+  std::string horizon_text() const {
+    if (horizons_.empty()) return " (all trials saw it)";
+    if (horizons_.size() > 1) return ", up to the end of each cell's watch";
+    return " up to " + shortest(*horizons_.begin()) + " s";
   }
 
   const TableRequest& request_;
@@ -245,6 +282,10 @@ class CellTable {
   std::optional<std::size_t> compare_;
   std::size_t steps_ = 1;
   std::set<std::tuple<Place, std::size_t, std::size_t>> best_;
+  std::optional<std::string> floor_;  ///< what the tests for the best can show
+  bool events_ = false;
+  std::set<double> horizons_;
+  int cells_ = 0, remarked_ = 0;
 };
 
 }  // namespace

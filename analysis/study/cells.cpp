@@ -50,11 +50,27 @@ std::string note_on(Statistic statistic) {
   return "";
 }
 
-Cell cell_of(const std::vector<double>& values, int failed, Statistic statistic) {
-  if (values.empty()) return Missing{failed};
+std::string note_on_events() {
+  return "Times to an event are restricted to the time that trials were watched, at which those "
+         "count that never saw it: a restricted mean. Log-rank tests compare the events "
+         "themselves, as if seeds were not shared.";
+}
+
+Cell cell_of(const Sample& sample, Statistic statistic) {
+  if (sample.values.empty()) return Missing{sample.failed, sample.not_run};
+  Cell cell = cell_of(sample.restricted(sample.horizon()), statistic);
+  auto& estimate = std::get<Estimate>(cell);
+  estimate.failed = sample.failed;
+  estimate.not_run = sample.not_run;
+  if (statistic != Statistic::count) estimate.reached = sample.reached_count();
+  return cell;
+}
+
+Cell cell_of(const std::vector<double>& values, Statistic statistic) {
+  if (values.empty()) return Missing{};
   const statistics::Summary summary = statistics::summarise(values);
   const std::optional<double> error = statistics::standard_error(values);
-  Estimate cell{.value = summary.mean, .n = summary.n, .failed = failed};
+  Estimate cell{.value = summary.mean, .n = summary.n, .each = values};
   // Without a scatter there is no uncertainty to take the digits from.
   cell.digits = error ? decimals_for(*error) : Digits::significant(4);
   switch (statistic) {
@@ -85,6 +101,7 @@ Cell cell_of(const std::vector<double>& values, int failed, Statistic statistic)
     case Statistic::count:
       cell.value = summary.n;
       cell.n = 0;
+      cell.each.clear();
       cell.digits = Digits::decimals(0);
       break;
   }

@@ -4,16 +4,23 @@
 #include <vector>
 
 #include "shoal/analysis/measure.hpp"
+#include "shoal/analysis/study/slices.hpp"
 #include "shoal/analysis/study/study.hpp"
 #include "shoal/analysis/tables/table.hpp"
 
 namespace shoal::analysis {
 
 /// What the cells of a table hold: the statistic over a sample; missing where it has no value.
-Cell cell_of(const std::vector<double>& values, int failed, Statistic statistic);
+/// Times of events are restricted to the sample's horizon.
+Cell cell_of(const Sample& sample, Statistic statistic);
+/// The same of plain values.
+Cell cell_of(const std::vector<double>& values, Statistic statistic);
 
 /// What a note says of a statistic: `Means.`
 std::string note_on(Statistic statistic);
+
+/// What a note says of times to an event that some trials never saw.
+std::string note_on_events();
 
 /// `energy mean` of energy_mean_wh: a name without its unit, as words.
 std::string heading_of(const Quantity& quantity);

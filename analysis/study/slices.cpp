@@ -1,6 +1,7 @@
 #include "shoal/analysis/study/slices.hpp"
 
 #include <algorithm>
+#include <limits>
 #include <numeric>
 #include <unordered_map>
 
@@ -99,15 +100,40 @@ std::vector<std::size_t> places_of_groups(const std::vector<std::string>& names,
   return places;
 }
 
-std::vector<double> Sample::minus(const Sample& other) const {
-  std::vector<double> differences;
+std::vector<statistics::EventTime> Sample::event_times() const {
+  std::vector<statistics::EventTime> event_times;
+  for (std::size_t k = 0; k < values.size(); ++k) event_times.push_back({values[k], reached[k]});
+  return event_times;
+}
+
+double Sample::horizon() const {
+  if (!times) return std::numeric_limits<double>::infinity();
+  const std::vector<std::vector<statistics::EventTime>> alone{event_times()};
+  return statistics::common_horizon(alone);
+}
+
+std::vector<double> Sample::restricted(double horizon) const {
+  return times ? statistics::restricted_times(event_times(), horizon) : values;
+}
+
+statistics::Differences Sample::minus(const Sample& other) const {
+  const double common = std::min(horizon(), other.horizon());
+  const std::vector<double> own = restricted(common), all_theirs = other.restricted(common);
+  std::vector<double> ours, theirs;
   std::map<std::string, double> others;
-  for (std::size_t k = 0; k < other.values.size(); ++k) others[other.pairs[k]] = other.values[k];
-  for (std::size_t k = 0; k < values.size(); ++k) {
+  for (std::size_t k = 0; k < all_theirs.size(); ++k) others[other.pairs[k]] = all_theirs[k];
+  for (std::size_t k = 0; k < own.size(); ++k) {
     const auto found = others.find(pairs[k]);
-    if (found != others.end()) differences.push_back(values[k] - found->second);
+    if (found == others.end()) continue;
+    ours.push_back(own[k]);
+    theirs.push_back(found->second);
   }
-  return differences;
+  return statistics::Differences::between(ours, theirs);
+}
+
+std::optional<int> Sample::reached_count() const {
+  if (!waits) return std::nullopt;
+  return static_cast<int>(std::ranges::count(reached, true));
 }
 
 Slices::Slices(const StudyResults& results, const Scope& scope) : results_(results) {
@@ -156,14 +182,19 @@ Sample Slices::sample(const std::vector<std::size_t>& place, const Question& que
   Sample sample;
   const auto found = trials_.find(place);
   if (found == trials_.end()) return sample;
+  const auto known = std::ranges::find(known_values(), question.metric, &Quantity::name);
+  if (known != known_values().end()) {
+    sample.times = !known->censored_by.empty();
+    sample.waits = sample.times || !known->event.empty();
+  }
   for (const Member& member : found->second) {
-    if (results_.state(member.trial) != StudyResults::State::done) {
-      ++sample.failed;
-    } else if (const std::optional<double> answer =
-                   results_.answer(question, member.trial).bounded()) {
-      sample.values.push_back(*answer);
-      sample.pairs.push_back(member.pair);
-    }
+    const Answer answer = results_.answer(question, member.trial);
+    if (answer.kind == Answer::Kind::failed) ++sample.failed;
+    if (answer.kind == Answer::Kind::not_run) ++sample.not_run;
+    if (!answer.has_number()) continue;
+    sample.values.push_back(answer.number);
+    sample.pairs.push_back(member.pair);
+    sample.reached.push_back(answer.kind == Answer::Kind::value);
   }
   return sample;
 }

@@ -1,10 +1,13 @@
 #pragma once
 
 #include <map>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "shoal/analysis/statistics/differences.hpp"
+#include "shoal/analysis/statistics/survival.hpp"
 #include "shoal/analysis/study/results.hpp"
 #include "shoal/analysis/study/selection.hpp"
 
@@ -22,11 +25,24 @@ struct Dimension {
 
 /// The answers of the trials in one place of a table.
 struct Sample {
-  std::vector<double> values;
+  std::vector<double> values;      ///< Answer::bounded()
   std::vector<std::string> pairs;  ///< of each value: what it shares with values of other places
-  int failed = 0;                  ///< trials that failed, or have not run yet
+  std::vector<bool> reached;       ///< of each value: whether its event came; true without one
+  bool waits = false;              ///< the question is about an event that trials may never see
+  bool times = false;              ///< ... and it asks when the event came
+  int failed = 0;                  ///< trials that failed
+  int not_run = 0;                 ///< trials that have not run yet
 
-  std::vector<double> minus(const Sample& other) const;  ///< pair by pair
+  std::vector<statistics::EventTime> event_times() const;
+  /// How far the times of events are known (survival.hpp); infinite for what is no time.
+  double horizon() const;
+  /// The values; of times of events, restricted to a horizon, so that their mean is the restricted
+  /// mean.
+  std::vector<double> restricted(double horizon) const;
+  /// Pair by pair; of times of events, restricted to the horizon that both have.
+  statistics::Differences minus(const Sample& other) const;
+  /// Trials that saw the event; nothing where there is none to see.
+  std::optional<int> reached_count() const;
 };
 
 /// What a table is about.

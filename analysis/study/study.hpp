@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "shoal/analysis/design.hpp"
+#include "shoal/analysis/statistics/paired_tests.hpp"
 #include "shoal/analysis/study/claim_request.hpp"
 #include "shoal/analysis/study/factor.hpp"
 #include "shoal/core/registry.hpp"
@@ -42,7 +43,7 @@ enum class Statistic {
 
 enum class Best { none, lowest, highest };
 
-enum class PairedTest { sign_flip, wilcoxon, paired_t };
+using statistics::PairedTest;
 
 /// A table of cells: rows and columns over factors, a statistic over replications in each.
 struct TableRequest {

@@ -1,5 +1,8 @@
 #include "shoal/analysis/study/study_tables.hpp"
 
+#include <algorithm>
+#include <iterator>
+#include <new>
 #include <set>
 
 #include "shoal/analysis/study/cell_table.hpp"
@@ -40,6 +43,25 @@ std::vector<std::string> needed_metrics(const Study& study) {
   return {names.begin(), names.end()};
 }
 
+/// The tables that `make` makes. Numbers that a statistic cannot take are no reason to lose the
+/// other tables: then, a table that says so. What the study does not have is still an error.
+template <class Request, class Make>
+std::vector<Table> or_why_not(const Request& request, const Make& make) {
+  try {
+    return make();
+  } catch (const InputError&) {
+    throw;
+  } catch (const std::bad_alloc&) {
+    throw;
+  } catch (const std::exception& error) {
+    return {{request.name,
+             request.caption,
+             {{.header = "not computed"}},
+             {{std::string(error.what())}},
+             {}}};
+  }
+}
+
 TableRequest usual_table(const PlannedGroup& group) {
   TableRequest request;
   request.name = group.name().empty() ? "results" : group.name();
@@ -66,12 +88,17 @@ std::size_t require_answerable(const StudyPlan& plan) {
 std::vector<Table> study_tables(const StudyResults& results) {
   const Study& study = results.plan().study();
   std::vector<Table> tables;
-  for (const TableRequest& request : study.tables) tables.push_back(cell_table(request, results));
+  const auto take = [&](std::vector<Table> some) {
+    std::ranges::move(some, std::back_inserter(tables));
+  };
+  for (const TableRequest& request : study.tables) {
+    take(or_why_not(request, [&] { return std::vector{cell_table(request, results)}; }));
+  }
   for (const ComparisonRequest& request : study.comparisons) {
-    tables.push_back(difference_table(request, results));
+    take(or_why_not(request, [&] { return std::vector{difference_table(request, results)}; }));
   }
   for (const SensitivityRequest& request : study.sensitivities) {
-    for (Table& table : sensitivity_tables(request, results)) tables.push_back(std::move(table));
+    take(or_why_not(request, [&] { return sensitivity_tables(request, results); }));
   }
   if (!tables.empty()) return tables;
   for (const PlannedGroup& group : results.plan().groups()) {

@@ -31,6 +31,7 @@ void check(const Table& table, const std::string& column, const Estimate& estima
     refuse(table, "an uncertainty of column \"" + column + "\" is negative");
   }
   numbers.push_back(estimate.value);
+  numbers.insert(numbers.end(), estimate.each.begin(), estimate.each.end());
   if (!std::ranges::all_of(numbers, [](double x) { return std::isfinite(x); })) {
     refuse(table, "a number of column \"" + column + "\" is not finite");
   }
@@ -77,9 +78,12 @@ std::vector<ColumnKind> checked_kinds(const Table& table) {
       const auto* estimate = std::get_if<Estimate>(&row[c]);
       if (estimate != nullptr) check(table, table.columns[c].header, *estimate);
       const auto* missing = std::get_if<Missing>(&row[c]);
-      if ((estimate != nullptr && (estimate->n < 0 || estimate->failed < 0)) ||
-          (missing != nullptr && missing->failed < 0)) {
-        refuse(table, "a count of column \"" + table.columns[c].header + "\" is negative");
+      if ((estimate != nullptr &&
+           (estimate->n < 0 || estimate->failed < 0 || estimate->not_run < 0 ||
+            estimate->reached.value_or(0) < 0 || estimate->reached.value_or(0) > estimate->n)) ||
+          (missing != nullptr && (missing->failed < 0 || missing->not_run < 0))) {
+        refuse(table, "a count of column \"" + table.columns[c].header +
+                          "\" is negative, or more than all");
       }
     }
   }

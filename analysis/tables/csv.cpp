@@ -57,7 +57,11 @@ void add_header(const Column& column, const LaidColumn& laid, Fields& fields) {
     fields.push_back(name + "_n");
     fields.push_back(name + "_failed");
   }
+  if (laid.not_run) fields.push_back(name + "_not_run");
   if (laid.best) fields.push_back(name + "_best");
+  if (laid.reached) fields.push_back(name + "_reached");
+  if (laid.remarks) fields.push_back(name + "_remarks");
+  if (laid.each) fields.push_back(name + "_each");
 }
 
 void add_cell(const Cell& cell, const LaidColumn& laid, Fields& fields) {
@@ -76,7 +80,28 @@ void add_cell(const Cell& cell, const LaidColumn& laid, Fields& fields) {
                                     : missing != nullptr ? missing->failed
                                                          : 0));
   }
+  if (laid.not_run) {
+    fields.push_back(std::to_string(estimate != nullptr  ? estimate->not_run
+                                    : missing != nullptr ? missing->not_run
+                                                         : 0));
+  }
   if (laid.best) fields.emplace_back(estimate != nullptr && estimate->best ? "true" : "false");
+  if (laid.reached) {
+    fields.push_back(estimate != nullptr && estimate->reached ? std::to_string(*estimate->reached)
+                                                              : "");
+  }
+  if (laid.remarks) {
+    std::string all;
+    for (const std::string& remark : remarks_of(cell)) all += (all.empty() ? "" : " ") + remark;
+    fields.push_back(all);
+  }
+  if (laid.each) {
+    std::string all;
+    for (const double x : estimate != nullptr ? estimate->each : std::vector<double>{}) {
+      all += (all.empty() ? "" : " ") + shortest(x);
+    }
+    fields.push_back(all);
+  }
 }
 
 }  // namespace

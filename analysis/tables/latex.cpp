@@ -25,7 +25,7 @@ class LatexColumn {
     // Phantoms make all uncertainties as wide; powers of ten and marks come on top.
     std::pair<bool, std::size_t> most{false, 0};
     for (const auto& row : layout.rows) {
-      std::size_t extra = row[c].mark.size();
+      std::size_t extra = row[c].mark.size() + row[c].reached.size();
       for (const Number& number : row[c].numbers) extra += number.exponent.size();
       const std::pair size{row[c].numbers.size() > 1, extra};
       if (widest_.empty() || size > most) widest_ = behind(row[c]);
@@ -54,7 +54,8 @@ class LatexColumn {
 
  private:
   std::string behind(const LaidCell& laid) const {
-    if (laid.numbers.size() < 2) return superscript(laid.mark);
+    const std::string reached = laid.reached.empty() ? "" : "\\ " + laid.reached;
+    if (laid.numbers.size() < 2) return reached + superscript(laid.mark);
     const auto part = [&](std::size_t k, const std::string& open, const std::string& close) {
       const Number& number = laid.numbers[k];
       return rooms_[k].before(number) + open + number.whole + latex_from_point(number) + close +
@@ -66,7 +67,7 @@ class LatexColumn {
         column_.kind == ColumnKind::plus_minus  ? "{}\\pm{}" + part(1, "", "")
         : column_.kind == ColumnKind::deviation ? "\\;" + part(1, "(", ")")
                                                 : "\\;" + part(1, "[", ",") + part(2, "", "]");
-    return "$" + clear + uncertainty + "$" + superscript(laid.mark);
+    return "$" + clear + uncertainty + "$" + reached + superscript(laid.mark);
   }
 
   /// Bold digits are wider than plain ones: they hang from the point to both sides, over a box just

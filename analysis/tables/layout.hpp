@@ -25,14 +25,19 @@ struct LaidColumn {
   std::array<Extent, 3> extents;  ///< of the value and of the numbers of its uncertainty
   bool counts = false;            ///< some estimate knows its n, or trials failed
   bool best = false;              ///< some estimate is the best
+  bool not_run = false;           ///< some trials have not run
+  bool reached = false;           ///< some estimate is of events
+  bool each = false;              ///< the values behind some estimate are known
+  bool remarks = false;           ///< of some cell more is to say
 
   bool numeric() const { return kind != ColumnKind::text; }
 };
 
 struct LaidCell {
   std::vector<Number> numbers;  ///< none for a text and what is missing
-  std::string mark;             ///< a letter that a note explains, or nothing
+  std::string mark;             ///< letters that notes explain, or nothing
   bool best = false;
+  std::string reached = {};  ///< `(18 of 20)` of the time to an event, or nothing
 };
 
 /// A header over the columns [first, first + count).
@@ -59,6 +64,9 @@ struct Layout {
   /// What a number takes by itself.
   static Extent extent_of(const Number& number, bool at_point);
 };
+
+/// Of a cell that may have some; none of texts.
+const std::vector<std::string>& remarks_of(const Cell& cell);
 
 /// `energy (Wh)`.
 std::string with_unit(const std::string& header, const std::string& unit);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <string_view>
 #include <variant>
@@ -42,14 +43,19 @@ struct Estimate {
   double value = 0.0;
   Uncertainty uncertainty = {};
   Digits digits = {};
-  int n = 0;       ///< values behind it; 0 where it is no statistic
-  int failed = 0;  ///< trials that should have given a value, and did not
+  int n = 0;        ///< values behind it; 0 where it is no statistic
+  int failed = 0;   ///< trials that should have given a value, and did not
+  int not_run = 0;  ///< those that have not run yet
   bool best = false;
+  std::optional<int> reached = {};        ///< of n, those that saw the event whose time it is
+  std::vector<std::string> remarks = {};  ///< what a note says of this number; full sentences
+  std::vector<double> each = {};          ///< the values behind it, where figures are to show them
 };
 
 /// Printed as a dash.
 struct Missing {
-  int failed = 0;  ///< trials, all of which failed
+  int failed = 0, not_run = 0;  ///< trials, none of which gave a value
+  std::vector<std::string> remarks = {};
 };
 
 using Cell = std::variant<Missing, std::string, Estimate>;
@@ -77,10 +83,14 @@ enum class TableFormat { text, csv, markdown, latex, html };
 /// Ends with a line break. Where estimates know their n, a note says it once; those that differ
 /// from most others, or had failures, carry a mark, and a note says what it stands for.
 ///
+/// A number of events is followed by how many trials saw it: `1350 +- 40 (18 of 20)`.
+///
 ///  - `text`: for terminals. Best values end with `*`.
 ///  - `csv`: RFC 4180 with `\n`; caption and notes are left out. An estimate takes columns of its
 ///    own: `x`, then `x_plus_minus`, `x_sd` or `x_low` and `x_high`, then `x_n` and `x_failed`, and
-///    `x_best` where any is. Numbers are in full precision.
+///    `x_not_run`, `x_best`, `x_reached`, `x_remarks` and `x_each` (values
+///    separated by blanks) where any is. Numbers are in full
+///    precision.
 ///  - `markdown`: a pipe table of GitHub. Best values are bold.
 ///  - `latex`: a table environment that needs booktabs and siunitx (2 or 3). Best values are bold.
 ///  - `html`: a table element with its caption, in a figure with its notes. Best values are strong.

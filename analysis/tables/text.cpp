@@ -63,7 +63,8 @@ std::vector<std::string> cells_of(const Table& table, const Layout& layout, std:
                      : laid.numbers.empty() && column.numeric()
                          ? blanks(column.extents[0].before - 1) + "-"
                      : laid.numbers.empty() ? "-"
-                                            : aligned(laid.numbers, column));
+                                            : aligned(laid.numbers, column) +
+                                                  (laid.reached.empty() ? "" : " " + laid.reached));
     tails.push_back((laid.best ? "*" : "") + (laid.mark.empty() ? "" : "^" + laid.mark));
   }
   const auto widest = [](const std::vector<std::string>& texts) {

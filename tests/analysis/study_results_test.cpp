@@ -2,12 +2,15 @@
 
 #include <unistd.h>
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <limits>
 #include <map>
 
 #include "shoal/analysis/study/cell_table.hpp"
 #include "shoal/analysis/study/difference_table.hpp"
+#include "shoal/analysis/study/study_tables.hpp"
 #include "shoal/scenarios/toml_file.hpp"
 #include "tests/core/settings.hpp"
 
@@ -42,8 +45,8 @@ class Stored : public testing::Test {
   }
   void TearDown() override { std::filesystem::remove_all(folder_); }
 
-  StudyResults results(const Energies& energies) {
-    const StudyPlan plan(read_study(scenarios::parse_toml(study_text, "study.toml")));
+  StudyResults results(const Energies& energies, const std::string& text = study_text) {
+    const StudyPlan plan(read_study(scenarios::parse_toml(text, "study.toml")));
     Store store(folder_, Store::Access::write);
     const PlannedGroup& group = plan.groups().front();
     for (const PlannedTrial& planned : plan.all_trials()) {
@@ -160,6 +163,151 @@ TEST_F(Stored, DifferencesAreTakenSeedBySeed) {
   EXPECT_EQ(difference.n, 5);
   // 20 of 32 patterns of signs sum to -1 or 1, the others lie further out: all are as far out.
   EXPECT_EQ(std::get<Estimate>(table.rows[0][4]).value, 1.0);
+  EXPECT_NEAR(std::get<Estimate>(table.rows[0][5]).value, 0.70405, 1e-5);  // t = -0.4082, 4 degrees
+}
+
+/// The column of that name in the only row of a table.
+const Cell& cell_in(const Table& table, const std::string& name) {
+  for (std::size_t c = 0; c < table.columns.size(); ++c) {
+    const Column& column = table.columns[c];
+    if ((column.name.empty() ? column.header : column.name) == name) return table.rows.at(0)[c];
+  }
+  throw std::out_of_range(name);
+}
+
+bool says(const Table& table, const std::string& text) {
+  return std::ranges::any_of(
+      table.notes, [&](const std::string& note) { return note.find(text) != std::string::npos; });
+}
+
+ComparisonRequest of_pairwise_and_rigid() {
+  ComparisonRequest request;
+  request.name = "d";
+  request.factor = "behaviour";
+  request.reference = pairwise;
+  request.metrics = {"energy_mean_wh"};
+  return request;
+}
+
+TEST_F(Stored, ATableSaysWhatItsTestCanShowAtAll) {
+  const StudyResults all = results({{{rigid, "10"}, low}, {{pairwise, "10"}, high}});
+  const Table table = difference_table(of_pairwise_and_rigid(), all);
+  EXPECT_TRUE(says(table,
+                   "The least p that a sign-flip test of 5 differences can give, of 1 "
+                   "comparison, is 0.062: no difference could be significant here, however "
+                   "large; 6 replications are the fewest that could."));
+  const auto& p = std::get<Estimate>(cell_in(table, "p_value"));
+  EXPECT_EQ(p.value, 2.0 / 32.0);
+  ASSERT_EQ(p.remarks.size(), 1u);
+  EXPECT_EQ(p.remarks.front(), "The least p that these 5 differences can give.");
+  EXPECT_LT(std::get<Estimate>(cell_in(table, "p_value_t")).value, 1e-4);
+  // The differences scatter by 0.27 Wh, and 5 % of the mean are 1.1 Wh.
+  EXPECT_EQ(std::get<Estimate>(cell_in(table, "replications_needed")).value, 6.0);
+  EXPECT_EQ(std::get<Estimate>(cell_in(table, "replications_needed_t")).value, 3.0);
+}
+
+TEST_F(Stored, DifferencesThatHardlyVaryHaveATable) {
+  for (const double noise : {0.0, 1e-15, 1e-13, 1e-10}) {
+    std::vector<double> shifted;
+    for (std::size_t k = 0; k < low.size(); ++k) {
+      shifted.push_back(low[k] + 0.0867 + (k % 2 == 0 ? noise : -noise));
+    }
+    const StudyResults all = results({{{rigid, "10"}, shifted}, {{pairwise, "10"}, low}});
+    const Table table = difference_table(of_pairwise_and_rigid(), all);
+    EXPECT_NEAR(std::get<Estimate>(cell_in(table, "difference")).value, 0.0867, 1e-9);
+    EXPECT_EQ(std::get<Estimate>(cell_in(table, "replications_needed_t")).value, 2.0) << noise;
+    EXPECT_FALSE(print(table, TableFormat::latex).empty());
+  }
+}
+
+TEST_F(Stored, NumbersTooLargeToSubtractCostOneTableOnly) {
+  const double most = std::numeric_limits<double>::max();
+  const std::string tables_wanted = R"(
+[[table]]
+name = "a"
+rows = ["behaviour"]
+columns = ["period"]
+metrics = ["energy_mean_wh"]
+[[comparison]]
+name = "b"
+factor = "behaviour"
+reference = "pairwise_referencing"
+metrics = ["energy_mean_wh"]
+)";
+  const Energies energies{{{rigid, "10"}, {most, 1, 2, 3, 4}},
+                          {{pairwise, "10"}, {-most, 1, 2, 3, 4}}};
+  const std::vector<Table> tables = study_tables(results(energies, study_text + tables_wanted));
+  ASSERT_EQ(tables.size(), 2u);
+  EXPECT_EQ(tables[0].rows.size(), 2u);
+  EXPECT_EQ(tables[1].columns.front().header, "not computed");
+  EXPECT_FALSE(print(tables[1], TableFormat::latex).empty());
+}
+
+/// Times to a quality; a negative one is the end of a watch that did not see it.
+class StoredTimes : public Stored {
+ protected:
+  StudyResults times(const std::vector<double>& ours, const std::vector<double>& theirs) {
+    const StudyPlan plan(read_study(scenarios::parse_toml(study_text, "study.toml")));
+    Store store(folder_, Store::Access::write);
+    const PlannedGroup& group = plan.groups().front();
+    for (const PlannedTrial& planned : plan.all_trials()) {
+      const auto labels = group.labels(planned.cell);
+      if (labels[1] != "10") continue;  // not run
+      const auto k = static_cast<std::size_t>(planned.replication);
+      const double time_s = (labels[0] == rigid ? ours : theirs).at(k);
+      StoredTrial trial;
+      trial.key = group.key(planned.cell, planned.replication);
+      trial.program = "test";
+      trial.metrics = {
+          {"time_to_quality_20m_s", time_s > 0.0 ? std::optional(time_s) : std::nullopt},
+          {"quality_watched_s", time_s > 0.0 ? 3600.0 : -time_s}};
+      store.write(trial);
+    }
+    return {plan, store, {"time_to_quality_20m_s"}, {}};
+  }
+};
+
+TEST_F(StoredTimes, CountWithTheEndOfTheWatchWhereTheEventNeverCame) {
+  const StudyResults all = times({1000, -3600, 1200, -3600, 800}, {1100, 1400, 1300, 1200, 1000});
+  TableRequest request;
+  request.name = "t";
+  request.rows = {"behaviour"};
+  request.columns = {"period"};
+  request.metrics = {"time_to_quality_20m_s"};
+  const Table table = cell_table(request, all);
+  const auto& mean = std::get<Estimate>(table.rows[0][1]);
+  EXPECT_EQ(mean.value, 2040.0) << "those that reached it took 1000 on average";
+  EXPECT_EQ(mean.reached, 3);
+  EXPECT_EQ(mean.n, 5);
+  EXPECT_NE(print(table, TableFormat::text).find("(3 of 5)"), std::string::npos);
+  EXPECT_TRUE(says(table, "restricted means up to 3600 s"));
+  EXPECT_EQ(std::get<Missing>(table.rows[0][2]).not_run, 5);
+  EXPECT_EQ(std::get<Missing>(table.rows[0][2]).failed, 0);
+
+  ComparisonRequest compared = of_pairwise_and_rigid();
+  compared.metrics = request.metrics;
+  const Table differences = difference_table(compared, all);
+  EXPECT_EQ(std::get<Estimate>(cell_in(differences, "difference")).value, 2040.0 - 1200.0);
+  EXPECT_EQ(std::get<Estimate>(cell_in(differences, "difference")).n, 5);
+  const auto& p = std::get<Estimate>(cell_in(differences, "p_value_log_rank"));
+  EXPECT_GT(p.value, 0.05);
+  EXPECT_LT(p.value, 1.0);
+}
+
+TEST_F(Stored, SamplesOfTwoKindsAreSaidToBe) {
+  std::vector<double> most{40, 41, 42, 43, 41.5};
+  StudyResults all = results({{{rigid, "10"}, most}, {{rigid, "20"}, {42, 43, 41, 44, 121}}});
+  TableRequest request;
+  request.name = "t";
+  request.rows = {"behaviour"};
+  request.columns = {"period"};
+  request.metrics = {"energy_mean_wh"};
+  const Table table = cell_table(request, all);
+  EXPECT_TRUE(std::get<Estimate>(table.rows[0][1]).remarks.empty());
+  ASSERT_EQ(std::get<Estimate>(table.rows[0][2]).remarks.size(), 1u);
+  EXPECT_EQ(std::get<Estimate>(table.rows[0][2]).remarks.front(),
+            "Two kinds: 4 of 5 at 42.5, 1 of 5 at 121.");
+  EXPECT_TRUE(says(table, "two groups explain 90 % of the variance"));
 }
 
 }  // namespace

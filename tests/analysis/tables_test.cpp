@@ -145,8 +145,31 @@ TEST(Tables, SayNOnceWhereItIsTheSame) {
 TEST(Tables, MarkFailuresEvenWhereAllHadThem) {
   Table table = of(Estimate{.value = 1.0, .n = 4, .failed = 1});
   EXPECT_EQ(print(table, text), "what    x\na     1^a\n\n^a n = 4, 1 failed.\n");
+  table.rows[0][1] = Estimate{.value = 1.0, .n = 4, .failed = 1, .not_run = 2};
+  EXPECT_EQ(print(table, text), "what    x\na     1^a\n\n^a n = 4, 1 failed, 2 not run.\n");
   table.rows[0][1] = Missing{.failed = 5};
   EXPECT_EQ(print(table, text), "what  x\na     -^a\n\n^a all 5 failed.\n");
+}
+
+TEST(Tables, ShowHowManyReachedAnEventAndWhatElseIsToSay) {
+  Table table = of(Estimate{.value = 1350.0,
+                            .uncertainty = PlusMinus{40.0},
+                            .digits = Digits::decimals(0),
+                            .n = 20,
+                            .reached = 18,
+                            .remarks = {"Skewed."},
+                            .each = {1.5, 2.0}});
+  EXPECT_EQ(print(table, text),
+            "what                       x\n"
+            "a     1350 +- 40 (18 of 20)^a\n"
+            "\nn = 20 throughout.\n^a Skewed.\n");
+  EXPECT_EQ(print(table, csv),
+            "what,x,x_plus_minus,x_n,x_failed,x_reached,x_remarks,x_each\n"
+            "a,1350,40,20,0,18,Skewed.,1.5 2\n");
+  EXPECT_NE(print(table, markdown).find("1350 ± 40 (18 of 20)<sup>a</sup>"), std::string::npos);
+  EXPECT_NE(print(table, latex).find("(18 of 20)"), std::string::npos);
+  table.rows[0][1] = Estimate{.value = 1.0, .n = 3, .reached = 4};
+  EXPECT_THROW(print(table, text), std::invalid_argument);
 }
 
 TEST(Tables, TakeMoreMarksThanThereAreLetters) {

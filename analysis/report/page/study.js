@@ -71,7 +71,7 @@ function showFigures() {
 const LONG_TABLE = 25;  // rows: longer ones are opened by hand
 
 function showTables() {
-  for (const {name, html} of data.tables) {
+  for (const {name, html, points: columns} of data.tables) {
     const place = element("div", {class: "scroll", tabindex: "0", role: "region",
                                   "aria-label": `Table ${name}`});
     place.innerHTML = html;  // escaped where it was made
@@ -81,6 +81,11 @@ function showTables() {
         element("summary", {}, `${place.querySelector("caption").textContent} (${rows} rows)`), place));
     } else {
       byId("tables").append(place);
+    }
+    if (columns.length > 0) {
+      const shown = columns.reduce((sum, column) => sum + column.rows.length, 0);
+      const caption = place.querySelector("caption").textContent || name;
+      byId("tables").append(points.section(columns, caption, shown > LONG_TABLE));
     }
     const link = element("a", {href: `#tab:${name}`}, name.replaceAll("_", " "));
     link.addEventListener("click", () => {

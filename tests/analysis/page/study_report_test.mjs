@@ -87,9 +87,26 @@ test("claims can be chosen by their verdict", async () => {
   page.quiet();
 });
 
+test("shows every trial as a point beside mean and interval", async () => {
+  const page = await open(browser, report);
+  const charts = page.locator(".points");
+  assert.equal(await charts.count(), 2, "a chart for each metric");
+  const energy = charts.first();
+  assert.equal(await energy.locator(".strip").count(), 2, "a row for each behaviour");
+  assert.equal(await energy.locator("circle.trial").count(), 2 * 3);
+  assert.equal(await energy.locator("line.mean").count(), 2);
+  // The mean of the points is where the mean is drawn.
+  const [places, mean] = await energy.locator(".strip").first().evaluate(strip => [
+    [...strip.querySelectorAll("circle")].map(dot => parseFloat(dot.getAttribute("cx"))),
+    parseFloat(strip.querySelector(".mean").getAttribute("x1"))]);
+  assert.ok(Math.abs(places.reduce((a, b) => a + b) / places.length - mean) < 1e-6);
+  assert.ok(places.every(x => x >= 0 && x <= 100));
+  page.quiet();
+});
+
 test("a long table is closed, and opens by its name in the contents", async () => {
   const page = await open(browser, report);
-  const isOpen = () => page.$eval("#tables details", details => details.open);
+  const isOpen = () => page.$eval('#tables details[id^="long:"]', details => details.open);
   assert.equal(await isOpen(), false);
   await page.click("#contents a >> text=against time");
   assert.equal(await isOpen(), true);
