@@ -10,10 +10,11 @@
 
 namespace shoal::analysis {
 
-std::optional<std::string> Margin::complaint(const std::string& name) const {
-  if ((absolute > 0.0) != (percent > 0.0)) return std::nullopt;
-  return absolute > 0.0 ? "takes " + name + " or " + name + "_percent, not both"
-                        : "needs " + name + " or " + name + "_percent, above 0";
+Margin given_margin(const Margin& margin, const std::string& name, const Origin& origin) {
+  if ((margin.absolute > 0.0) != (margin.percent > 0.0)) return margin;
+  const std::string options = name + " or " + name + "_percent";
+  throw InputError(origin, margin.absolute > 0.0 ? "the test takes " + options + ", not both"
+                                                 : "the test needs " + options + ", above 0");
 }
 
 double Margin::beside(double other) const {

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -13,18 +12,22 @@ struct Margin {
   double absolute = 0.0;
   double percent = 0.0;  ///< instead, of the other's value
 
-  /// Why it is none; `name` is what its option is called. Nothing if it is one.
-  std::optional<std::string> complaint(const std::string& name) const;
   double beside(double other) const;
   /// `1.5 Wh`, or `5 % of the other's (1.9 Wh)`, of the mean of the others' values.
   std::string text(const std::vector<double>& others, const std::string& unit) const;
 };
 
+/// Throws InputError, at `origin`, unless one of its numbers is given; `name` is what the options
+/// are called.
+Margin given_margin(const Margin& margin, const std::string& name, const Origin& origin);
+
 /// Options `smallest_effect` and `smallest_effect_percent`, one of which must be given.
 struct WithSmallestEffect {
   double smallest_effect = 0.0, smallest_effect_percent = 0.0;
-  Margin margin() const { return {smallest_effect, smallest_effect_percent}; }
-  std::optional<std::string> complaint() const { return margin().complaint("smallest_effect"); }
+  Origin origin;
+  Margin margin() const {
+    return given_margin({smallest_effect, smallest_effect_percent}, "smallest_effect", origin);
+  }
 };
 template <class T>
 void declare_smallest_effect(Options<T>& o) {
@@ -37,8 +40,8 @@ void declare_smallest_effect(Options<T>& o) {
 /// Options `within` and `within_percent`, one of which must be given.
 struct WithTolerance {
   double within = 0.0, within_percent = 0.0;
-  Margin margin() const { return {within, within_percent}; }
-  std::optional<std::string> complaint() const { return margin().complaint("within"); }
+  Origin origin;
+  Margin margin() const { return given_margin({within, within_percent}, "within", origin); }
 };
 template <class T>
 void declare_tolerance(Options<T>& o) {
