@@ -37,7 +37,7 @@ std::vector<std::string> columns_of(const ClaimFile& file, const StudyPlan& plan
       if (std::ranges::find(columns, label) == columns.end()) columns.push_back(label);
     }
   }
-  return columns;
+  return columns.empty() ? std::vector<std::string>{""} : columns;
 }
 
 JudgedClaim tested(const Claim& claim, const std::string& factor,
