@@ -79,6 +79,9 @@ void require_known_quantities(const Study& study) {
   for (const SensitivityRequest& sensitivity : study.sensitivities) {
     require_known_values(sensitivity.metrics, sensitivity.origin);
   }
+  for (const AttributionRequest& attribution : study.attributions) {
+    require_known_values(attribution.metrics, attribution.origin);
+  }
 }
 
 std::optional<std::string> name_complaint(const std::string& name, const std::string& noun) {
@@ -218,6 +221,27 @@ std::optional<std::string> SensitivityRequest::complaint() const {
   return std::nullopt;
 }
 
+void AttributionRequest::declare(Options<AttributionRequest>& o) {
+  using A = AttributionRequest;
+  declare_scope(o);
+  o.text("group", &A::group, "a grid of factors with two levels each; default: the only group");
+  o.text("minus", &A::minus,
+         "a group whose cells with the same labels are subtracted, seed by seed; it may lack "
+         "factors");
+  o.setting("reference", &A::reference, "a table: factor = label",
+            "the level from which each factor is changed");
+  o.texts("metrics", &A::metrics, "what is attributed (shoal list measures)");
+}
+
+std::optional<std::string> AttributionRequest::complaint() const {
+  if (auto wrong = name_complaint(name, "an attribution")) return wrong;
+  if (metrics.empty()) return "an attribution needs metrics";
+  if (!reference.is_table() || reference.table().empty()) {
+    return "an attribution needs reference: the level of each factor that is changed";
+  }
+  return std::nullopt;
+}
+
 void Study::declare(Options<Study>& o) {
   o.text("title", &Study::title, "one line on what is studied");
   o.integer("replications", &Study::replications, "", in(1, 1e9), "trials of every cell");
@@ -231,6 +255,8 @@ void Study::declare(Options<Study>& o) {
   o.tables("table", &Study::tables, "tables of cells");
   o.tables("comparison", &Study::comparisons, "tables of paired differences");
   o.tables("sensitivity", &Study::sensitivities, "tables of sensitivity indices");
+  o.tables("attribution", &Study::attributions,
+           "tables of what each of several changes accounts for");
   o.texts(
       "series", &Study::series,
       "numbers against time to store of every trial, besides those that tables and claims name");
@@ -259,6 +285,7 @@ Study read_study(const Setting& root) {
   require_names(study.tables, names);
   require_names(study.comparisons, names);
   require_names(study.sensitivities, names);
+  require_names(study.attributions, names);
   require_known_quantities(study);
   return study;
 }

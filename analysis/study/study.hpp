@@ -97,6 +97,20 @@ struct SensitivityRequest {
   std::optional<std::string> complaint() const;
 };
 
+/// A table of what each of several changes accounts for in the difference that they make together.
+struct AttributionRequest {
+  std::string name, caption;
+  std::string group;  ///< a grid whose factors have two levels each; default: the only one
+  std::string minus;  ///< a group whose cells are subtracted, seed by seed; "" for none
+  Setting reference;  ///< factor -> label: from where each is changed
+  std::vector<std::string> metrics;
+  Origin origin;
+
+  static constexpr const char* noun = "an attribution";
+  static void declare(Options<AttributionRequest>& o);
+  std::optional<std::string> complaint() const;
+};
+
 /// From base scenarios to the tables of a paper: what a study file says.
 struct Study {
   std::string title;
@@ -107,6 +121,7 @@ struct Study {
   std::vector<TableRequest> tables;
   std::vector<ComparisonRequest> comparisons;
   std::vector<SensitivityRequest> sensitivities;
+  std::vector<AttributionRequest> attributions;
   FilePath claims_file;
   ClaimFile claims;
   std::vector<std::string> series;  ///< stored of every trial, besides those that tables name

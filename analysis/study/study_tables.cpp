@@ -5,6 +5,7 @@
 #include <new>
 #include <set>
 
+#include "shoal/analysis/study/attribution_table.hpp"
 #include "shoal/analysis/study/cell_table.hpp"
 #include "shoal/analysis/study/claim_text.hpp"
 #include "shoal/analysis/study/difference_table.hpp"
@@ -34,6 +35,9 @@ std::vector<std::string> needed_metrics(const Study& study) {
   }
   for (const SensitivityRequest& sensitivity : study.sensitivities) {
     names.insert(sensitivity.metrics.begin(), sensitivity.metrics.end());
+  }
+  for (const AttributionRequest& attribution : study.attributions) {
+    names.insert(attribution.metrics.begin(), attribution.metrics.end());
   }
   for (const TestedStatement* asked : tested_on_the_study(study.claims)) {
     if (asked->metric.empty()) continue;
@@ -99,6 +103,9 @@ std::vector<Table> study_tables(const StudyResults& results) {
   }
   for (const SensitivityRequest& request : study.sensitivities) {
     take(or_why_not(request, [&] { return sensitivity_tables(request, results); }));
+  }
+  for (const AttributionRequest& request : study.attributions) {
+    take(or_why_not(request, [&] { return std::vector{attribution_table(request, results)}; }));
   }
   if (!tables.empty()) return tables;
   for (const PlannedGroup& group : results.plan().groups()) {
