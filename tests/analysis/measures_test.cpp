@@ -257,6 +257,26 @@ TEST(Disagreement, IsThatOfBehavioursThatLayAPlan) {
   EXPECT_TRUE(series(results, "rotation_disagreement_deg").time_s.empty());
 }
 
+TEST(Disagreement, TellsTrialsWhoseVehiclesAgreeFromTheOthers) {
+  const Results agreed = run(parked, {"ping.bearing_sd_deg=1"}).results;
+  EXPECT_LT(*agreed.at("rotation_disagreement_end_deg"), 360.0 / 4 / 8);
+  EXPECT_EQ(agreed.at("agreed_on_rotation"), 1.0);
+  EXPECT_EQ(agreed.at("energy_agreed_wh"), agreed.at("energy_mean_wh"));
+  EXPECT_EQ(agreed.at("energy_not_agreed_wh"), std::nullopt);
+
+  const Results at_odds = run(parked, {"ping.bearing_sd_deg=90"}).results;
+  EXPECT_GT(*at_odds.at("rotation_disagreement_end_deg"), 360.0 / 4 / 8);
+  EXPECT_EQ(at_odds.at("agreed_on_rotation"), 0.0);
+  EXPECT_EQ(at_odds.at("energy_agreed_wh"), std::nullopt);
+  EXPECT_EQ(at_odds.at("energy_not_agreed_wh"), at_odds.at("energy_mean_wh"));
+
+  const Results no_plan = run(parked, {"behaviour.kind=attraction_repulsion"}).results;
+  for (const char* name : {"rotation_disagreement_end_deg", "agreed_on_rotation",
+                           "energy_agreed_wh", "energy_not_agreed_wh"}) {
+    EXPECT_EQ(no_plan.at(name), std::nullopt) << name;
+  }
+}
+
 /// Two vehicles 30 m apart on their way through open water, with an obstacle aside.
 const Settings two_on_their_way = {
     "plan.square={rows=1,columns=2,separation_m=30}",
