@@ -71,11 +71,19 @@ void QualityOptions::declare(Options<QualityOptions>& o) {
   o.integer("layers", &Q::layers, "", in(0, 100),
             "lattice positions added around the plan (Rypkema 2015, sec. 4.3)");
   o.word("alignment", &Q::alignment,
-         {{"centroid", Alignment::centroid}, {"nearest_point", Alignment::nearest_point}},
-         "what is laid on top of one another before rotating: the centroids (sec. 4.3), or the "
-         "points nearest to them (the author's program)");
+         {{"rigid", Alignment::rigid},
+          {"centroid", Alignment::centroid},
+          {"nearest_point", Alignment::nearest_point}},
+         "how the plan is laid onto the vehicles: the best of all rigid motions; or two points on "
+         "top of one another before rotating by steps: the centroids (sec. 4.3), or the points "
+         "nearest to them (the author's program)");
+  o.number("tolerance_m", &Q::tolerance_m, "m", above(0),
+           "how far above its proven lower bound the quality may be, if alignment is \"rigid\"");
+  o.integer("budget", &Q::budget, "", in(1, 1e15),
+            "distances looked at before the proof is given up with a wider gap, for one instant, "
+            "if alignment is \"rigid\"");
   o.number("delta_theta_deg", &Q::delta_theta_deg, "deg", {0, 180, false},
-           "step of the search over rotations");
+           "step of the rotations, if alignment is \"centroid\" or \"nearest_point\"");
 }
 
 void Scenario::declare(Options<Scenario>& o) {

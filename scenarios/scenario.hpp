@@ -72,13 +72,16 @@ struct Faults {
   static void declare(Options<Faults>& o);
 };
 
-/// How the formation quality is measured: Rypkema 2015, sec. 4.3, Table 4.3.
+/// How the formation quality is measured: Rypkema 2015, sec. 4.3, Table 4.3; or as the least of all
+/// rigid motions, which his recipes miss where vehicles are lost.
 struct QualityOptions {
-  enum class Alignment { centroid, nearest_point };
+  enum class Alignment { rigid, centroid, nearest_point };
 
   double every_s = 30.0;
   std::int64_t layers = 1;
-  Alignment alignment = Alignment::centroid;
+  Alignment alignment = Alignment::rigid;
+  double tolerance_m = 0.01;
+  std::int64_t budget = 400'000;
   double delta_theta_deg = 10.0;
 
   static void declare(Options<QualityOptions>& o);

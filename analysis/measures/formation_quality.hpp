@@ -1,40 +1,48 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <memory>
+#include <optional>
 #include <span>
-#include <vector>
 
 #include "shoal/formations/plan.hpp"
 #include "shoal/scenarios/scenario.hpp"
-#include "shoal/solvers/matching/rotation_search.hpp"
 
 namespace shoal::analysis {
 
 /// How well vehicles keep a formation: the mean distance (m) between them and the slots of a
-/// (padded) plan, assigned and laid onto them as well as a search over rotations finds.
+/// (padded) plan that is laid onto them, each with a slot of its own. Rypkema 2015, sec. 4.3.
 ///
-/// Rypkema 2015, sec. 4.3, fig. 4.4. Zero for the perfect formation, unbounded above. Reflected
-/// formations do not count as the same.
+/// Zero for the perfect formation, unbounded above; reflected formations do not count as the same.
 class FormationQuality {
  public:
-  /// The plan needs as many slots as there are vehicles, or more.
-  FormationQuality(const formations::Plan& plan, scenarios::QualityOptions::Alignment alignment,
-                   double delta_theta_deg);
+  struct Value {
+    double quality_m = 0.0;
+    /// No way of laying the plan onto the vehicles has a lower mean distance. Nothing where the
+    /// recipe does not tell.
+    std::optional<double> lower_bound_m;
+  };
 
-  /// Positions in metres, finite, at least one.
-  double of(std::span<const Eigen::Vector2d> positions);
+  /// One way to find how the plan is laid.
+  class Recipe {
+   public:
+    virtual ~Recipe() = default;
+    virtual Value of(std::span<const Eigen::Vector2d> positions) = 0;
+    virtual std::span<const int> slot_of_position() const = 0;
+  };
+
+  /// The plan needs as many slots as there are vehicles, or more.
+  FormationQuality(const formations::Plan& plan, const scenarios::QualityOptions& options);
+
+  /// Positions in metres, finite, at least one. What was measured before makes it quicker, and
+  /// changes it within the tolerance, or down to the lower bound, only.
+  Value of(std::span<const Eigen::Vector2d> positions) { return recipe_->of(positions); }
 
   /// The slot of each position, as the last of() assigned them.
-  std::span<const int> slot_of_position() const { return search_.slot_of_point(); }
+  std::span<const int> slot_of_position() const { return recipe_->slot_of_position(); }
 
  private:
-  scenarios::QualityOptions::Alignment alignment_;
-  solvers::Turns turns_;
-  std::vector<Eigen::Vector2d> slots_;  // relative to their centre of rotation
-  solvers::AlignedSlots aligned_;
-  solvers::RotationSearch search_;
-  std::vector<Eigen::Vector2d> centred_;
-  int last_turn_ = 0;  // most likely near the next one: it bounds the search
+  std::unique_ptr<Recipe> recipe_;
 };
 
 }  // namespace shoal::analysis

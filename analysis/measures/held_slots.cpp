@@ -13,7 +13,7 @@ std::vector<Eigen::Vector2d> HeldSlots::positions() const {
 HeldSlots held_slots(const scenarios::World& world, std::span<const Eigen::Vector2d> places) {
   const scenarios::QualityOptions& quality = world.scenario().quality;
   HeldSlots held{world.scenario().plan.make()->padded(static_cast<int>(quality.layers)), {}};
-  FormationQuality metric(held.padded, quality.alignment, quality.delta_theta_deg);
+  FormationQuality metric(held.padded, quality);
   metric.of(places);
   held.slot.assign(metric.slot_of_position().begin(), metric.slot_of_position().end());
   return held;

@@ -7,8 +7,6 @@
 namespace shoal::analysis {
 namespace {
 
-// The assignment takes time that grows with the third power of the number of vehicles.
-constexpr std::size_t most_vehicles = 500;
 constexpr double good_m = 20.0;
 constexpr double last_from = 0.9;
 
@@ -23,15 +21,8 @@ class Quality final : public Measure {
     every_s_ = options.every_s;
     if (every_s_ <= 0.0) return;
     for (std::size_t i = 0; i < world.size(); ++i) start_.push_back(position(world, i));
-    if (world.size() > most_vehicles) {
-      throw InputError(world.scenario().plan.setting().origin,
-                       "the formation quality of " + std::to_string(world.size()) +
-                           " vehicles would take longer than the trial (it is meant for up to " +
-                           std::to_string(most_vehicles) + "); set quality.every_s = 0");
-    }
     metric_ = std::make_shared<FormationQuality>(
-        world.scenario().plan.make()->padded(static_cast<int>(options.layers)), options.alignment,
-        options.delta_theta_deg);
+        world.scenario().plan.make()->padded(static_cast<int>(options.layers)), options);
   }
 
   std::vector<Quantity> values() const override {
@@ -56,18 +47,29 @@ class Quality final : public Measure {
          .unit = "",
          .meaning = "distance from start / length of track, mean of vehicles, when the quality was "
                     "first below 20 m, or at the end if it never was",
-         .event = "time_to_quality_20m_s"}};
+         .event = "time_to_quality_20m_s"},
+        {"quality_gap_max_m", "m",
+         "greatest distance of the quality above its proven lower bound, in the whole mission"},
+        {"quality_gap_settled_m", "m",
+         "greatest distance of the quality above its proven lower bound, in the last 60 % of the "
+         "mission"}};
   }
 
   std::vector<Quantity> series() const override {
-    return {{"quality", "m", "formation quality (Rypkema 2015, sec. 4.3)"}};
+    return {{"quality", "m", "formation quality (Rypkema 2015, sec. 4.3)"},
+            {"quality_gap_m", "m", "how far the quality may be above the least of all motions"}};
   }
 
   void observe(const scenarios::World& world) override {
     survivors(world, positions_, slots_);
     if (positions_.empty()) return;
     time_s_.push_back(world.time_s());
-    quality_m_.push_back(metric_->of(positions_));
+    const FormationQuality::Value value = metric_->of(positions_);
+    quality_m_.push_back(value.quality_m);
+    if (value.lower_bound_m) {
+      gap_time_s_.push_back(world.time_s());
+      gap_m_.push_back(value.quality_m - *value.lower_bound_m);
+    }
     if (reached_s_) return;
     if (quality_m_.back() < good_m) reached_s_ = world.time_s();
     spent_wh_ = over_survivors(world, [&](std::size_t i) {
@@ -96,7 +98,11 @@ class Quality final : public Measure {
                 time_s_.empty() ? std::nullopt : std::optional(time_s_.back()));
     results.add("energy_to_quality_20m_wh", spent_wh_);
     results.add("path_straightness", straightness_);
+    const QualityHistory gaps(gap_time_s_, gap_m_, world.time_s());
+    results.add("quality_gap_max_m", gaps.worst_m(0.0));
+    results.add("quality_gap_settled_m", gaps.worst_m(settled_from));
     results.add_series("quality", time_s_, quality_m_);
+    results.add_series("quality_gap_m", gap_time_s_, gap_m_);
   }
 
  private:
@@ -118,6 +124,7 @@ class Quality final : public Measure {
   std::vector<Eigen::Vector2d> positions_;
   std::vector<int> slots_;
   std::vector<double> time_s_, quality_m_;
+  std::vector<double> gap_time_s_, gap_m_;  // where the metric proves a lower bound
   std::optional<double> reached_s_;
   std::optional<double> spent_wh_, straightness_;  ///< until then, or so far
 };

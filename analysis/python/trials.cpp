@@ -44,7 +44,7 @@ double quality(const Array& positions, const formations::Plan& plan, const py::k
     throw InputError("there are " + std::to_string(places.size()) + " positions for " +
                      std::to_string(plan.size()) + " slots; pad the plan");
   }
-  return analysis::FormationQuality(plan, options.alignment, options.delta_theta_deg).of(places);
+  return analysis::FormationQuality(plan, options).of(places).quality_m;
 }
 
 /// The current of a scenario at places, one after the other: none where it knows none.
@@ -74,13 +74,15 @@ void add_trials(py::module_& module) {
              py::arg("y"));
   module.def(
       "formation_quality", &quality, py::arg("positions"), py::arg("plan"),
-      "Mean distance (m) between vehicles and the slots of a plan, assigned and laid onto them as\n"
-      "well as a search over rotations finds: Rypkema 2015, sec. 4.3.\n\n"
+      "Mean distance (m) between vehicles and the slots of a plan that is laid onto them, the "
+      "least\n"
+      "of all rigid motions and assignments: Rypkema 2015, sec. 4.3.\n\n"
       "positions: array (vehicles, 2), metres east and north. The plan needs as many slots, or "
       "more\n"
-      "(`Plan.padded`, as the measure `quality` of a run). Options: alignment and delta_theta_deg "
-      "of a\n"
-      "scenario's `quality`. Raises InputError.");
+      "(`Plan.padded`, as the measure `quality` of a run). Options: those of "
+      "a\n"
+      "scenario's `quality` (alignment, tolerance_m, budget, delta_theta_deg). Raises "
+      "InputError.");
 }
 
 }  // namespace shoal::python

@@ -110,7 +110,7 @@ Json packed_tracks(const RecordedRun& run, const ShownInstants& shown) {
 
 Json packed_matches(const RecordedRun& run, const ShownInstants& shown,
                     const formations::Plan& plan, const scenarios::QualityOptions& options) {
-  FormationQuality quality(plan, options.alignment, options.delta_theta_deg);
+  FormationQuality quality(plan, options);
   std::vector<double> times;
   std::vector<std::uint16_t> slots;
   for (const std::size_t instant : matched_instants(shown, run.vehicles)) {

@@ -105,6 +105,7 @@ double AssignmentSolver::price_sum() const {
 AssignmentStatus AssignmentSolver::take_row_minima() {
   std::fill(row_of_column_.begin(), row_of_column_.end(), -1);
   pending_.clear();
+  rows_scanned_ += rows_;
   bound_below_ = price_sum();
   bool sound = true;
   const Eigen::Map<const Eigen::ArrayXd> price(price_.data(), columns_);
@@ -144,6 +145,7 @@ AssignmentSolver::Path AssignmentSolver::augment(int start, double rest, double 
   steps_.push_back({start, -1, 0.0, 0.0});
   for (;;) {
     const Step& last = steps_.back();
+    ++rows_scanned_;
     shortest = shortest.min(row_array(last.row) - open_price - last.offset);
     const double length = shortest.minCoeff();
     if (length == infinity) return Path::none;

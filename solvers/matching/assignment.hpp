@@ -40,6 +40,10 @@ class AssignmentSolver {
   std::span<const int> column_of() const { return column_of_row_; }
   double cost() const { return cost_; }
 
+  /// How many rows were looked through so far, in whatever matrix: a measure of the work done that
+  /// does not depend on the machine.
+  std::int64_t rows_scanned() const { return rows_scanned_; }
+
   /// For any matrix C of this shape, no assignment costs less than
   /// price_sum() + sum over rows i of min over columns j of (C(i, j) - prices()[j]).
   std::span<const double> prices() const { return price_; }
@@ -69,6 +73,7 @@ class AssignmentSolver {
   std::vector<Step> steps_;
   double cost_ = 0.0;
   double bound_below_ = 0.0;
+  std::int64_t rows_scanned_ = 0;
 };
 
 }  // namespace shoal::solvers

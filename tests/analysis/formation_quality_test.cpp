@@ -22,6 +22,7 @@ using Complex = std::complex<double>;
 
 constexpr double step_deg = 10.0;
 constexpr Alignment alignments[] = {Alignment::centroid, Alignment::nearest_point};
+constexpr double tolerance_m = scenarios::QualityOptions{}.tolerance_m;
 
 std::unique_ptr<formations::PlanSource> plan_source(const std::vector<std::string>& settings) {
   Setting root;
@@ -57,11 +58,14 @@ Points scattered(Points points, double sd_m, unsigned seed) {
 }
 
 double quality(const formations::Plan& plan, Alignment alignment, const Points& positions) {
-  return FormationQuality(plan, alignment, step_deg).of(positions);
+  scenarios::QualityOptions options;
+  options.alignment = alignment;
+  options.delta_theta_deg = step_deg;
+  return FormationQuality(plan, options).of(positions).quality_m;
 }
 
-// The same metric once more, by a plain loop over all turns, the Hungarian method and complex
-// numbers; nothing is shared with the solvers.
+// The metric by the two recipes of the thesis once more, by a plain loop over all turns, the
+// Hungarian method and complex numbers; nothing is shared with the solvers.
 
 std::vector<Complex> complex(const Points& points) {
   std::vector<Complex> z;
@@ -229,12 +233,57 @@ TEST(FormationQuality, StaysZeroWhenOneOfManyIsLost) {
   }
 }
 
+TEST(FormationQuality, StaysZeroWhateverIsLostOfAPerfectFormation) {
+  EXPECT_TRUE(rc::check("survivors", [] {
+    Points left = moved(slots_of(lattice().plan()), *rc::gen::inRange(0, 3600) / 10.0,
+                        {*rc::gen::inRange(-5000, 5000) * 1.0, 70.0});
+    std::ranges::shuffle(left, std::mt19937(*rc::gen::arbitrary<unsigned>()));
+    left.resize(static_cast<std::size_t>(*rc::gen::inRange(1, 21)));
+    RC_ASSERT(quality(lattice().padded(1), Alignment::rigid, left) < 1e-6);
+  }));
+}
+
+TEST(FormationQuality, IsNotAboveThatOfTheOtherRecipes) {
+  for (unsigned seed = 1; seed <= 12; ++seed) {
+    Points swarm = moved(scattered(slots_of(lattice().plan()), 10.0 * seed, seed), 31.0 * seed,
+                         {100.0 * seed, -50.0});
+    swarm.resize(20 - seed % 4);
+    const formations::Plan plan = lattice().padded(1);
+    const double rigid = quality(plan, Alignment::rigid, swarm);
+    for (const Alignment alignment : alignments) {
+      EXPECT_LE(rigid, quality(plan, alignment, swarm) + tolerance_m) << "seed " << seed;
+    }
+  }
+}
+
+TEST(FormationQuality, IsProvenForAFormedSwarm) {
+  const Points off = scattered(slots_of(lattice().plan()), 8.0, 1);
+  FormationQuality metric(lattice().padded(1), {});
+  const FormationQuality::Value value = metric.of(off);
+  ASSERT_TRUE(value.lower_bound_m);
+  EXPECT_LE(value.quality_m - *value.lower_bound_m, tolerance_m);
+  EXPECT_GT(*value.lower_bound_m, 7.0);
+  EXPECT_EQ(metric.slot_of_position().size(), off.size());
+}
+
+TEST(FormationQuality, FollowsASwarmThatDriftsAndLosesVehicles) {
+  FormationQuality metric(lattice().padded(1), {});
+  Points swarm = scattered(slots_of(lattice().plan()), 8.0, 3);
+  for (int k = 0; k < 10; ++k) {
+    swarm = moved(scattered(swarm, 1.0, static_cast<unsigned>(k)), 2.0, {400.0, -90.0});
+    if (k % 2) swarm.erase(swarm.begin());
+    EXPECT_NEAR(metric.of(swarm).quality_m, quality(lattice().padded(1), Alignment::rigid, swarm),
+                tolerance_m);
+  }
+}
+
 TEST(FormationQuality, DoesNotCountTheMirrorImage) {
   Points mirrored = slots_of(letters());
   for (Eigen::Vector2d& p : mirrored) p.x() = -p.x();
   for (const Alignment alignment : alignments) {
     EXPECT_GT(quality(letters(), alignment, mirrored), 20.0);
   }
+  EXPECT_GT(quality(letters(), Alignment::rigid, mirrored), 10.0);
 }
 
 TEST(FormationQuality, DoesNotDependOnWhichVehicleIsWhere) {
@@ -248,11 +297,13 @@ TEST(FormationQuality, DoesNotDependOnWhichVehicleIsWhere) {
 }
 
 TEST(FormationQuality, DoesNotDependOnWhatWasMeasuredBefore) {
-  FormationQuality one(lattice().padded(1), Alignment::centroid, step_deg);
+  scenarios::QualityOptions options;
+  options.alignment = Alignment::centroid;
+  FormationQuality one(lattice().padded(1), options);
   for (unsigned seed = 1; seed <= 8; ++seed) {
     const Points swarm =
         moved(scattered(slots_of(lattice().plan()), 150.0, seed), 47.0 * seed, {0.0, 0.0});
-    EXPECT_EQ(one.of(swarm), quality(lattice().padded(1), Alignment::centroid, swarm));
+    EXPECT_EQ(one.of(swarm).quality_m, quality(lattice().padded(1), Alignment::centroid, swarm));
   }
 }
 
