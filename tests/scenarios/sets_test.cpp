@@ -164,6 +164,7 @@ TEST(Sets, AsRunIsTheSquareRedSeaUnderTheProgramsSettings) {
   Setting square = read_toml(find_scenario("redsea_square"));
   apply_set(square, "inherits=program");
   apply_set(square, "current.netcdf.outside=clamp");
+  apply_set(square, "quality.alignment=nearest_point");
   EXPECT_EQ(
       to_toml(resolved_scenario(read_scenario(square))),
       to_toml(resolved_scenario(read_scenario(read_toml(find_scenario("redsea_square_as_run"))))));
