@@ -60,6 +60,17 @@ class Trials(Desk):
         self.assertEqual(by_file, shoal.run({"plan.square": {"rows": 2, "columns": numpy.int64(2)},
                                              "trial.duration_s": numpy.float64(60)}).measures)
 
+    def test_settings_are_inherited(self):
+        self.assertNotIn("inherits", shoal.scenario("construction_square"))
+        whole = shoal.scenario("construction_square", {"inherits": "program"})
+        self.assertEqual(whole["planner"]["update"], "tick")
+        self.assertEqual(whole["plan"]["kind"], "square")
+        self.write("mine.toml", 'inherits = "text"\n[ping]\nperiod_s = 11\n')
+        own = shoal.scenario({"inherits": self.desk / "mine.toml", "trial": {"duration_s": 60}})
+        self.assertEqual((own["ping"]["period_s"], own["planner"]["update"]), (11.0, "ping"))
+        with self.assertRaisesRegex(shoal.InputError, 'did you mean "program"'):
+            shoal.run("construction_square", {"inherits": "progam"})
+
     def test_errors_say_what_the_program_says(self):
         for sets in ({"behaviour.knd": "x"}, {"trial.seed": "many"}, {"plan.square.rows": 0},
                      {"ping.range_m": -1}):
