@@ -135,9 +135,10 @@ class AttributionTable {
  private:
   std::optional<double> answer(const Question& question, std::size_t mask, int k) const {
     const StudyPlan& plan = results_.plan();
-    const auto own = results_.answer(question, plan.index(group_, cells_[mask], k));
+    const auto own = results_.answer(question, plan.index(group_, cells_[mask], k)).bounded();
     if (request_.minus.empty() || !own) return own;
-    const auto other = results_.answer(question, plan.index(minus_, minus_cells_[mask], k));
+    const auto other =
+        results_.answer(question, plan.index(minus_, minus_cells_[mask], k)).bounded();
     return other ? std::optional(*own - *other) : std::nullopt;
   }
 
