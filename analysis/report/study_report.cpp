@@ -58,38 +58,52 @@ std::string words(const Cell& cell) {
   return estimate ? shortest(estimate->value) : "";
 }
 
-/// Of the columns of a table that know the trials behind their numbers: every trial, mean and
-/// interval, row by row.
-Json points(const Table& table) {
-  Json columns = Json::array();
-  for (std::size_t c = 0; c < table.columns.size(); ++c) {
-    Json rows = Json::array();
-    for (const std::vector<Cell>& row : table.rows) {
-      const auto* estimate = std::get_if<Estimate>(&row[c]);
-      if (!estimate || estimate->each.empty()) continue;
-      std::string label;
-      for (const Cell& cell : row) {
-        const auto* other = std::get_if<Estimate>(&cell);
-        if (other && !other->each.empty()) break;  // labels stand before all numbers
-        const std::string text = words(cell);
-        if (!text.empty()) label += (label.empty() ? "" : ", ") + text;
-      }
-      Json shown{{"label", label}, {"value", estimate->value}, {"each", estimate->each}};
-      if (const auto* by = std::get_if<PlusMinus>(&estimate->uncertainty)) {
-        shown["low"] = estimate->value - by->by;
-        shown["high"] = estimate->value + by->by;
-      } else if (const auto* ends = std::get_if<Between>(&estimate->uncertainty)) {
-        shown["low"] = ends->low;
-        shown["high"] = ends->high;
-      }
-      rows.push_back(std::move(shown));
-    }
-    if (rows.empty()) continue;
-    const Column& column = table.columns[c];
-    const std::string title = column.group.empty() ? "" : column.group + ": ";
-    columns.push_back({{"title", title + column.header}, {"unit", column.unit}, {"rows", rows}});
+/// One row of a chart: every trial behind an estimate, its mean and interval.
+Json points_of(const std::string& label, const Estimate& estimate) {
+  Json shown{{"label", label}, {"value", estimate.value}, {"each", estimate.each}};
+  if (const auto* by = std::get_if<PlusMinus>(&estimate.uncertainty)) {
+    shown["low"] = estimate.value - by->by;
+    shown["high"] = estimate.value + by->by;
+  } else if (const auto* ends = std::get_if<Between>(&estimate.uncertainty)) {
+    shown["low"] = ends->low;
+    shown["high"] = ends->high;
   }
-  return columns;
+  return shown;
+}
+
+/// Of a table, a chart for each column that knows the trials behind its numbers; where metrics run
+/// down the table, one for each of them.
+Json charts(const Table& table) {
+  const auto known = [](const Cell& cell) -> const Estimate* {
+    const auto* estimate = std::get_if<Estimate>(&cell);
+    return estimate && !estimate->each.empty() ? estimate : nullptr;
+  };
+  Json charts = Json::array();
+  for (std::size_t c = 0; c < table.columns.size(); ++c) {
+    const Column& column = table.columns[c];
+    std::vector<std::pair<std::string, Json>> of_column;  // title, rows
+    for (const std::vector<Cell>& row : table.rows) {
+      if (!known(row[c])) continue;
+      std::string label, title = column.header;
+      for (std::size_t l = 0; l < row.size() && !known(row[l]); ++l) {
+        const std::string text = words(row[l]);
+        if (table.columns[l].header == "metric") {
+          title += ", " + text;
+        } else if (!text.empty()) {
+          label += (label.empty() ? "" : ", ") + text;
+        }
+      }
+      if (of_column.empty() || of_column.back().first != title) {
+        of_column.emplace_back(title, Json::array());
+      }
+      of_column.back().second.push_back(points_of(label, *known(row[c])));
+    }
+    const std::string group = column.group.empty() ? "" : column.group + ": ";
+    for (const auto& [title, rows] : of_column) {
+      charts.push_back({{"title", group + title}, {"unit", column.unit}, {"rows", rows}});
+    }
+  }
+  return charts;
 }
 
 /// Which trials are missing from the numbers, and why.
@@ -144,7 +158,7 @@ void write_study_report(const fs::path& folder) {
   for (const Table& table : study_tables(results)) {
     data["tables"].push_back({{"name", table.name},
                               {"html", print(table, TableFormat::html)},
-                              {"points", points(table)}});
+                              {"points", charts(table)}});
   }
   data["claims"] = claims(judged_claims(results, folder));
   write_whole_file(folder / "report.html", whole_page("study.html", data));

@@ -34,7 +34,7 @@ for (each in strsplit(line, "\\t")) {
     log_rank = { g <- rep(seq_along(x), lengths(x)); s <- survdiff(events(unlist(x)) ~ g);
                  d <- sum(s$exp > 0) - 1; c(s$chisq, d, pchisq(s$chisq, d, lower.tail = FALSE)) },
     dip = dip(x[[1]]),
-    dip_p_value = dip.test(x[[1]], simulate.p.value = TRUE, B = 4000)$p.value))
+    dip_p_value = dip.test(x[[1]])$p.value))
 }
 """
 random = np.random.default_rng(1945)
@@ -205,7 +205,10 @@ class Statistics(unittest.TestCase):
         self.compare(1e-8)
 
     def test_bootstrap_intervals(self):
-        for values in samples(12, 40):
+        # Data without lumps: else the ends lie in gaps, and depend on single resamples.
+        for k in range(SETS):
+            n = int(random.integers(12, 41))
+            values = random.normal(0.4, 1.0, n) if k % 2 else random.exponential(1.0, n)
             ends = stats.bootstrap((values,), np.mean, confidence_level=0.9, method="BCa",
                                    batch=10000, n_resamples=10000,
                                    random_state=random).confidence_interval
@@ -221,7 +224,7 @@ class Statistics(unittest.TestCase):
         for _ in range(SETS):
             n = int(np.exp(random.uniform(np.log(2), np.log(300))))
             effect, alpha = random.uniform(-4, 4) / np.sqrt(n), random.choice([0.05, 0.01, 0.001])
-            self.ask("power", alpha, [n, effect], two_sided_power(n, effect, alpha))
+            self.ask("power", alpha, np.array([n, effect]), two_sided_power(n, effect, alpha))
         self.compare(1e-9)
         self.compare(1e-6, 1e-9, of_r=True)
 
@@ -235,8 +238,9 @@ class Statistics(unittest.TestCase):
         for groups in event_times():
             self.ask("log_rank", "", groups)
             self.ask("kaplan_meier", "", groups[0] if (groups[0] > 0).any() else [1.0])
-            # As far as the first sample knows its survival, and less.
-            horizon = np.max(np.abs(groups[0])) * random.uniform(0.3, 1.0)
+            # As far as the first sample knows its survival, or less; R wants some time before.
+            times = np.sort(np.abs(groups[0]))
+            horizon = times[0] + (times[-1] - times[0]) * random.uniform(0.2, 1.0)
             self.ask("restricted_mean", horizon, groups[0])
         # The variance at a survival of 0 is 0 to us, and undefined to R.
         self.expected = [np.nan_to_num(each) for each in
@@ -259,8 +263,12 @@ class Statistics(unittest.TestCase):
         expected = self.answers(["Rscript", "--vanilla", "-e", R], self.asked)
         for question, own, other in zip(self.asked, self.answers([PROGRAM], self.asked), expected):
             p = float(other[0])
-            error = math.sqrt(max(p * (1 - p), 1e-3) * (1 / 2000 + 1 / 4000))
-            self.assertAlmostEqual(own[0], p, delta=4.5 * error, msg=question)
+            # Ours is a share of 2000; R interpolates a table.
+            error = math.sqrt(max(p * (1 - p), 1e-3) / 2000)
+            if p < 0.9:
+                self.assertAlmostEqual(own[0], p, delta=4.5 * error + 0.005, msg=question)
+            else:  # the least dip that there is, 1 / (2n), which many samples have
+                self.assertGreater(own[0], 0.85, question)
 
 
 if __name__ == "__main__":

@@ -4,7 +4,7 @@
 const points = {
   /** About five round numbers from low to high. */
   ticks(low, high) {
-    const rough = (high - low) / 4 || 1;
+    const rough = (high - low) / 5 || 1;
     const power = 10 ** Math.floor(Math.log10(rough));
     const step = [1, 2, 5, 10].map(k => k * power).find(each => each >= rough);
     const found = [];
