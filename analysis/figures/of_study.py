@@ -46,7 +46,7 @@ def panels(table, request):
 
 
 UNITS = {"_m_per_wh": "m/Wh", "_m_per_h": "m/h", "_m_s": "m/s", "_wh": "Wh", "_deg": "deg", "_m": "m",
-         "_s": "s", "_w": "W", "_days": "d"}
+         "_s": "s", "_w": "W", "_h": "h"}
 
 
 def words(name):

@@ -8,7 +8,8 @@ namespace {
 constexpr double joules_per_wh = 3600.0;
 
 /// Energy per vehicle since mission start (Rypkema 2015, sec. 4.1.1), over the vehicles that are
-/// left.
+/// left. The endurance is the program's estimate of the mission's length (sec. 4.1 and 4.1.1:
+/// energy pack x time / energy spent).
 class EnergyMeasure final : public Measure {
  public:
   static void declare(Options<EnergyMeasure>&) {}

@@ -48,8 +48,8 @@ TEST(KnownQuantities, HaveNamesOfTheirOwn) {
 
 TEST(KnownQuantities, EndWithTheirUnit) {
   const std::map<std::string, std::string> endings = {
-      {"m", "_m"},     {"s", "_s"},    {"deg", "_deg"},     {"Wh", "_wh"},        {"W", "_w"},
-      {"m/s", "_m_s"}, {"d", "_days"}, {"m/h", "_m_per_h"}, {"m/Wh", "_m_per_wh"}};
+      {"m", "_m"},     {"s", "_s"}, {"deg", "_deg"},     {"Wh", "_wh"},        {"W", "_w"},
+      {"m/s", "_m_s"}, {"h", "_h"}, {"m/h", "_m_per_h"}, {"m/Wh", "_m_per_wh"}};
   for (const auto* known : {&known_values(), &known_series()}) {
     for (const Quantity& each : *known) {
       const auto& [name, unit] = std::tie(each.name, each.unit);

@@ -86,18 +86,14 @@ TEST(Mission, IsEndedAtTheSameInstantWithAndWithoutARecord) {
   EXPECT_EQ(bare.results.values, recorded.results.values);
 }
 
-TEST(Mission, EstimatesHowLongTheBatteryLasts) {
-  // Drifting with a hotel load of 2 W, and 1001 pings of 10 J: 3.001 W.
+TEST(Energy, LastsAsLongAsTheAuthorsProgramEstimates) {
+  // ESTIMATION_DURATION_DAYS: energy pack x mission time / energy spent. Drifting with a hotel load
+  // of 2 W, and 1001 pings of 10 J in 10 000 s: 3.001 W.
   const Results results = run(parked, {"energy={hotel_w=2,ping_j=10,battery_wh=72}",
                                        "ping.period_s=10", "trial.duration_s=10000"})
                               .results;
-  EXPECT_NEAR(*results.at("mission_estimate_days"), 3.0 / 3.001, 1e-9);
-  EXPECT_NEAR(*results.at("mission_estimate_min_days"), 3.0 / 3.001, 1e-9);
-}
-
-TEST(Mission, OfVehiclesThatSpendNothingHasNoEstimate) {
-  const Results results = run(parked, {"energy={hotel_w=0,ping_j=0}"}).results;
-  EXPECT_EQ(results.at("mission_estimate_days"), std::nullopt);
+  EXPECT_NEAR(*results.at("endurance_mean_h"), 72.0 / 3.001, 1e-9);
+  EXPECT_NEAR(*results.at("endurance_min_h"), 72.0 / 3.001, 1e-9);
 }
 
 TEST(Energy, IsSpentAtTheRateOfTheMissionAsItWasEnded) {
