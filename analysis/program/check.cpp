@@ -6,9 +6,11 @@
 #include "commands.hpp"
 #include "shoal/analysis/study/cell_scenarios.hpp"
 #include "shoal/analysis/study/study_tables.hpp"
+#include "shoal/analysis/tables/table.hpp"
 #include "shoal/core/text.hpp"
 #include "shoal/formations/csv_table.hpp"
 #include "shoal/scenarios/currents/netcdf_report.hpp"
+#include "shoal/scenarios/currents/netcdf_statistics.hpp"
 #include "shoal/scenarios/inheritance.hpp"
 #include "shoal/scenarios/library_path.hpp"
 #include "shoal/scenarios/scenario.hpp"
@@ -93,9 +95,38 @@ void check_csv(const fs::path& file) {
              table.has("heading_deg") ? "starts" : "a plan, or starts,", plan.size());
 }
 
+/// What the currents of some files are like where a formation would drift, side by side. A file
+/// without such statistics gets a note instead.
+void compare_currents(const std::vector<fs::path>& files) {
+  analysis::Table table{.name = "currents",
+                        .caption = "",
+                        .columns = {{.header = "where a formation drifts"}, {.header = "meaning"}},
+                        .rows = {},
+                        .notes = {}};
+  for (const fs::path& file : files) {
+    try {
+      const auto statistics = scenarios::current_file_statistics(file);
+      table.columns.push_back({.header = file.string()});
+      table.rows.resize(statistics.size());
+      for (std::size_t i = 0; i < statistics.size(); ++i) {
+        const auto& [name, meaning, value] = statistics[i];
+        std::vector<analysis::Cell>& row = table.rows[i];
+        if (row.empty()) row = {name, meaning};
+        row.push_back(value ? analysis::Cell(analysis::Estimate{
+                                  .value = *value, .digits = analysis::Digits::significant(6)})
+                            : analysis::Missing{});
+      }
+    } catch (const InputError& error) {
+      table.notes.push_back(std::string("no statistics: ") + error.what());
+    }
+  }
+  if (!files.empty()) fmt::print("\n{}", print(table, analysis::TableFormat::text));
+}
+
 }  // namespace
 
 void check(const std::vector<std::string>& files) {
+  std::vector<fs::path> currents;
   for (const std::string& name : files) {
     const std::string extension = fs::path(name).extension();
     if (extension == ".toml" || (extension.empty() && !fs::exists(name))) {
@@ -103,11 +134,14 @@ void check(const std::vector<std::string>& files) {
     } else if (extension == ".csv") {
       check_csv(name);
     } else if (extension == ".nc") {
-      fmt::print("{}", scenarios::describe_current_file(name));
+      const fs::path file = scenarios::resolved({name, {}});
+      fmt::print("{}", scenarios::describe_current_file(file));
+      if (std::ranges::find(currents, file) == currents.end()) currents.push_back(file);
     } else {
       throw InputError(name + ": shoal checks .toml, .csv and .nc files");
     }
   }
+  compare_currents(currents);
 }
 
 }  // namespace shoal::program
