@@ -15,19 +15,15 @@ constexpr double same_sum_m = 1e-9;
 constexpr std::int64_t lookup_work = 4;  // takes as long as so many distances
 // An assignment tells little about a box that leaves the angle so open.
 constexpr double widest_spread = 0.5;
+// What the nearest slots are ahead of the best, in disc radii, so that a few splits do without
+// more.
+constexpr double enough_lead = 0.25;
+// Assignments that may be the best somewhere in one box, and steps to list them.
+constexpr std::size_t most_rivals = 24;
+constexpr int most_tries = 400;
 
 bool later(const PoseBox& a, const PoseBox& b) {
   return a.bound != b.bound ? a.bound > b.bound : a.serial > b.serial;
-}
-
-double least_spacing(std::span<const Eigen::Vector2d> slots) {
-  double least = infinity;
-  for (std::size_t i = 0; i < slots.size(); ++i) {
-    for (std::size_t j = 0; j < i; ++j) {
-      least = std::min(least, (slots[i] - slots[j]).squaredNorm());
-    }
-  }
-  return std::sqrt(least);
 }
 
 }  // namespace
@@ -37,8 +33,7 @@ PoseSearch::PoseSearch(std::span<const Eigen::Vector2d> slots, double tolerance_
       slots_(slots.begin(), slots.end()),
       slot_x_(static_cast<Eigen::Index>(slots.size())),
       slot_y_(slot_x_.size()),
-      field_(slots),
-      spacing_m_(least_spacing(slots)) {
+      field_(slots) {
   for (Eigen::Index j = 0; j < slot_x_.size(); ++j) {
     slot_x_[j] = slots_[static_cast<std::size_t>(j)].x();
     slot_y_[j] = slots_[static_cast<std::size_t>(j)].y();
@@ -49,7 +44,6 @@ void PoseSearch::set_points(std::span<const Eigen::Vector2d> points, double ceil
   points_.assign(points.begin(), points.end());
   radius_.clear();
   for (const Eigen::Vector2d& p : points_) radius_.push_back(p.norm());
-  farthest_ = *std::ranges::max_element(radius_);
   mean_radius_ =
       std::accumulate(radius_.begin(), radius_.end(), 0.0) / static_cast<double>(radius_.size());
   known_count_ = 0;
@@ -67,7 +61,7 @@ void PoseSearch::try_pose(const RigidPose& pose) {
   const Transform2 turn = Transform2::from_angle(pose.angle, pose.place);
   for (const Eigen::Vector2d& p : points_) discs_.push_back(turn * p);
   assign();
-  known(pose);
+  known(assignment_.column_of(), pose);
 }
 
 // Of all points to the middles of their discs.
@@ -86,8 +80,7 @@ void PoseSearch::assign() {
 
 // Where it is not known yet, its least sum near this pose is sought, which may be the best so far;
 // then the assignment that is optimal there is tried in turn.
-std::size_t PoseSearch::known(const RigidPose& pose) {
-  const std::span<const int> slot_of = assignment_.column_of();
+std::size_t PoseSearch::known(std::span<const int> slot_of, const RigidPose& pose) {
   const Eigen::Vector2d first = slots_[static_cast<std::size_t>(slot_of[0])];
   targets_.clear();
   for (const int slot : slot_of) targets_.push_back(slots_[static_cast<std::size_t>(slot)] - first);
@@ -191,8 +184,8 @@ void PoseSearch::glance(PoseBox& box) {
     bound += std::max(nearest - radius_[i] * spread - reach, 0.0);
   }
   box.bound = std::max(box.bound, bound);
-  box.nearest_suffice =
-      middle >= limit() && middle / count + farthest_ * spread + reach > 0.5 * spacing_m_;
+  const double radii = count * (mean_radius_ * spread + reach);
+  box.nearest_suffice = middle - limit() >= enough_lead * radii;
 }
 
 void PoseSearch::look(PoseBox& box) {
@@ -205,10 +198,16 @@ void PoseSearch::look(PoseBox& box) {
   box.bound = std::max(box.bound, bound_of_discs());
   if (box.bound >= limit()) return;
   const double change = least_change();
-  const std::size_t index = known(box.middle);
-  if (known_[index].sum + change >= limit()) {
-    box.bound = std::max(box.bound, certified_sum(index) + change);
+  first_.assign(assignment_.column_of().begin(), assignment_.column_of().end());
+  const std::size_t index = known(first_, box.middle);
+  // First as if nothing were lost in the proof of its sum, which is much more work.
+  if (!list_rivals(limit() - known_[index].sum - change)) return;
+  if (!list_rivals(limit() - certified_sum(index) - change)) return;
+  double bound = limit();
+  for (std::size_t r = 0; r < rivals_count_; ++r) {
+    bound = std::min(bound, certified_sum(known(rivals_[r], box.middle)));
   }
+  box.bound = std::max(box.bound, bound);
 }
 
 // The point is the centroid of all: as many slots as there are points, the nearest to it.
@@ -238,25 +237,63 @@ double PoseSearch::bound_of_discs() const {
   return bound;
 }
 
-// By how much another assignment can be better than this one, for points anywhere in their discs.
-// |x - a| - |x - b| changes by no more than 2 |a - b| / (|x - a| + |x - b|) a metre, and 2.
-double PoseSearch::least_change() const {
+// By how much another assignment can be better than this one, for points anywhere in their discs;
+// `reduced_` says by how much less if it takes a pair. |x - a| - |x - b| changes by no more than
+// 2 |a - b| / (|x - a| + |x - b|) a metre, and 2.
+double PoseSearch::least_change() {
   const Eigen::Index columns = slot_x_.size();
   const Eigen::Map<const Eigen::ArrayXd> prices(assignment_.prices().data(), columns);
   double bound = assignment_.price_sum();
+  reduced_.resize(costs_.size());
   const double* row = costs_.data();
+  double* into = reduced_.data();
   for (std::size_t i = 0; i < discs_.size(); ++i) {
     const Eigen::Map<const Eigen::ArrayXd> distances(row, columns);
+    Eigen::Map<Eigen::ArrayXd> reduced(into, columns);
     const int own = assignment_.column_of()[i];
     const double radius = disc_radius_[i], distance = distances[own];
     const auto apart =
         ((slot_x_ - slot_x_[own]).square() + (slot_y_ - slot_y_[own]).square()).sqrt();
     const auto far = (distances + (distance - 2.0 * radius)).max(1e-9);
     const auto slope = (2.0 * apart / far).min(2.0);
-    bound += (distances - distance - radius * slope - prices).minCoeff();
+    reduced = distances - distance - radius * slope - prices;
+    const double least = reduced.minCoeff();
+    bound += least;
+    reduced -= least;
     row += columns;
+    into += columns;
   }
   return std::min(bound, 0.0);
+}
+
+// All assignments whose reduced costs sum up to less than `room`; false if they are too many.
+bool PoseSearch::list_rivals(double room) {
+  rivals_count_ = 0;
+  tries_ = 0;
+  partial_.clear();
+  taken_.assign(slots_.size(), false);
+  return room <= 0.0 || list_rivals_from(0, room);
+}
+
+bool PoseSearch::list_rivals_from(std::size_t row, double room) {
+  if (row == points_.size()) {
+    if (rivals_count_ == most_rivals) return false;
+    if (rivals_.size() == rivals_count_) rivals_.emplace_back();
+    rivals_[rivals_count_++] = partial_;
+    return true;
+  }
+  const double* reduced = reduced_.data() + row * slots_.size();
+  for (std::size_t j = 0; j < slots_.size(); ++j) {
+    if (taken_[j] || reduced[j] >= room) continue;
+    if (++tries_ > most_tries) return false;
+    taken_[j] = true;
+    partial_.push_back(static_cast<int>(j));
+    const bool listed = list_rivals_from(row + 1, room - reduced[j]);
+    partial_.pop_back();
+    taken_[j] = false;
+    if (!listed) return false;
+  }
+  return true;
 }
 
 }  // namespace shoal::solvers

@@ -20,9 +20,9 @@ namespace shoal::solvers {
 /// - whatever the angle, the points are as near to their centroid as they are, and that to slots;
 /// - every point meets its nearest slot (SlotField);
 /// - the prices of an optimal assignment of the middles of the discs;
-/// - that assignment's own least sum over all motions (PairedDistances), less what any other may
-///   gain on it for points in their discs. Near the optimum the first two would need ever smaller
-///   boxes; this one closes a whole neighbourhood at once.
+/// - the least sum over all motions (PairedDistances) of each of the few assignments that may be
+///   optimal for points in their discs. Near the optimum the others would need ever smaller boxes;
+///   this one closes a whole neighbourhood at once.
 ///
 /// Deterministic. Keeps its work space between calls: one object per thread.
 class PoseSearch {
@@ -77,21 +77,27 @@ class PoseSearch {
   void assign();
   double bound_of_all_angles(const PoseBox& box);
   double bound_of_discs() const;
-  double least_change() const;
-  std::size_t known(const RigidPose& pose);
+  double least_change();
+  bool list_rivals(double room);
+  bool list_rivals_from(std::size_t row, double room);
+  std::size_t known(std::span<const int> slot_of, const RigidPose& pose);
   double certified_sum(std::size_t index);
 
   double tolerance_m_;
   std::vector<Eigen::Vector2d> slots_;
   Eigen::ArrayXd slot_x_, slot_y_;
   SlotField field_;
-  double spacing_m_;  // of the two slots nearest to one another
 
   std::vector<Eigen::Vector2d> points_;
   std::vector<double> radius_;  // of the points
-  double mean_radius_ = 0.0, farthest_ = 0.0;
+  double mean_radius_ = 0.0;
   std::vector<Eigen::Vector2d> discs_, targets_;
-  std::vector<double> disc_radius_, costs_;
+  std::vector<double> disc_radius_, costs_, reduced_;
+  std::vector<std::vector<int>> rivals_;
+  std::vector<int> partial_, first_;
+  std::vector<bool> taken_;
+  std::size_t rivals_count_ = 0;
+  int tries_ = 0;
   AssignmentSolver assignment_;
   PairedDistances pairs_;
   std::vector<Known> known_;

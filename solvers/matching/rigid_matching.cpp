@@ -72,9 +72,18 @@ RigidMatch RigidMatching::match(std::span<const Eigen::Vector2d> points,
     return plan_.best().sum - bound > options_.tolerance_m * count;
   };
   double least = 0.0;
-  if (lattice_ && open(least)) least = lattice_->search(points_, plan_, 3 * options_.budget / 4);
+  const auto search_lattice = [&] {
+    if (lattice_ && open(least)) {
+      least = std::max(least, lattice_->search(points_, plan_, 3 * (end - work()) / 4));
+    }
+  };
+  search_lattice();
   if (open(least)) {
+    const double before = plan_.best().sum;
     if (prior) try_turns(end);
+    if (plan_.best().sum < before) search_lattice();
+  }
+  if (open(least)) {
     PoseBox region = plan_.promising();
     region.arc = std::numbers::pi / symmetry_;
     least = std::max(least, plan_.search(region, end - (work() - plan_.work())));
