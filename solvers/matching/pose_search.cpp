@@ -107,7 +107,7 @@ std::size_t PoseSearch::known(std::span<const int> slot_of, const RigidPose& pos
   return index;
 }
 
-double PoseSearch::certified_sum(std::size_t index) {
+double PoseSearch::certified_sum(std::size_t index, std::span<const int> slot_of) {
   Known& k = known_[index];
   if (k.certified) return k.bound_below;
   pairs_.set(points_, k.targets);
@@ -116,6 +116,10 @@ double PoseSearch::certified_sum(std::size_t index) {
   k.sum = least.sum;
   k.bound_below = least.bound_below;
   k.certified = true;
+  if (k.sum < best_.sum - same_sum_m) {
+    const Eigen::Vector2d first = slots_[static_cast<std::size_t>(slot_of[0])];
+    best_ = {{k.pose.angle, k.pose.place + first}, k.sum, {slot_of.begin(), slot_of.end()}};
+  }
   return k.bound_below;
 }
 
@@ -202,10 +206,10 @@ void PoseSearch::look(PoseBox& box) {
   const std::size_t index = known(first_, box.middle);
   // First as if nothing were lost in the proof of its sum, which is much more work.
   if (!list_rivals(limit() - known_[index].sum - change)) return;
-  if (!list_rivals(limit() - certified_sum(index) - change)) return;
+  if (!list_rivals(limit() - certified_sum(index, first_) - change)) return;
   double bound = limit();
   for (std::size_t r = 0; r < rivals_count_; ++r) {
-    bound = std::min(bound, certified_sum(known(rivals_[r], box.middle)));
+    bound = std::min(bound, certified_sum(known(rivals_[r], box.middle), rivals_[r]));
   }
   box.bound = std::max(box.bound, bound);
 }

@@ -81,7 +81,7 @@ class PoseSearch {
   bool list_rivals(double room);
   bool list_rivals_from(std::size_t row, double room);
   std::size_t known(std::span<const int> slot_of, const RigidPose& pose);
-  double certified_sum(std::size_t index);
+  double certified_sum(std::size_t index, std::span<const int> slot_of);
 
   double tolerance_m_;
   std::vector<Eigen::Vector2d> slots_;
