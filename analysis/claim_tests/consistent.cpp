@@ -28,7 +28,7 @@ struct Consistent final : ClaimTest {
     for (const CellPlace cell : scope.cells) {
       const SharedNumbers numbers = scope.numbers({cell});
       Contrast& contrast = contrasts.emplace_back(counted(numbers, "%"));
-      contrast.quantity = "standard deviation in the mean";
+      contrast.quantity = "coefficient of variation";
       contrast.claimed = "at most " + number_text(within_percent, "%");
       const auto variation = statistics::variation(numbers.of[0]);
       if (!variation) continue;
@@ -44,7 +44,7 @@ struct Consistent final : ClaimTest {
 };
 
 const Enrol<ClaimTest, Consistent> enrolled{
-    "consistent", "a number differs little from trial to trial, in its mean"};
+    "consistent", "a number differs little from trial to trial, by its coefficient of variation"};
 
 }  // namespace
 }  // namespace shoal::analysis

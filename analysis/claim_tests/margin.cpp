@@ -21,11 +21,12 @@ double Margin::beside(double other) const {
   return absolute + percent / 100.0 * std::abs(other);
 }
 
-std::string Margin::text(const std::vector<double>& others, const std::string& unit) const {
+std::string Margin::text(const std::vector<double>& values, const std::string& unit,
+                         const std::string& others) const {
   if (percent == 0.0) return number_text(absolute, unit);
-  std::string text = fmt::format("{:g} % of the other's", percent);
-  if (others.empty()) return text;
-  return text + " (" + number_text(beside(statistics::mean(others)), unit) + ")";
+  const std::string text = fmt::format("{:g} % of {}", percent, others);
+  if (values.empty()) return text;
+  return text + " (" + number_text(beside(statistics::mean(values)), unit) + ")";
 }
 
 Contrast directed_difference(const ClaimScope& scope, CellPlace ours, CellPlace theirs, double sign,

@@ -13,8 +13,10 @@ struct Margin {
   double percent = 0.0;  ///< instead, of the other's value
 
   double beside(double other) const;
-  /// `1.5 Wh`, or `5 % of the other's (1.9 Wh)`, of the mean of the others' values.
-  std::string text(const std::vector<double>& others, const std::string& unit) const;
+  /// `1.5 Wh`, or `5 % of the other's (1.9 Wh)`, of the mean of the others' values. `others` says
+  /// what they are.
+  std::string text(const std::vector<double>& values, const std::string& unit,
+                   const std::string& others = "the other's") const;
 };
 
 /// Throws InputError, at `origin`, unless one of its numbers is given; `name` is what the options

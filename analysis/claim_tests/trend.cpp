@@ -58,7 +58,8 @@ class Trend final : public ClaimTest {
     contrast.title = scope.label(scope.cells.front(), {along_}) + " to " +
                      scope.label(scope.cells.back(), {along_});
     contrast.quantity = "change of the line";
-    contrast.claimed = (sign_ > 0.0 ? "above " : "below -") + margin_.text(means, contrast.unit);
+    contrast.claimed =
+        (sign_ > 0.0 ? "above " : "below -") + margin_.text(means, contrast.unit, "the mean");
     judge(contrast, changes, {std::move(beyond)}, scope.asked.average);
     set_against(contrast, sign_);
     return {contrast};

@@ -31,15 +31,17 @@ void write_all(const StudyResults& results, const std::vector<analysis::Table>& 
   }
 }
 
-/// One verdict a column, each as wide as the longest.
+/// A column holds the longest verdict, indented as those of parts are, and a space.
+constexpr std::size_t verdict_width = 16;
+
 std::string verdicts(const std::vector<std::string>& texts) {
   std::string line;
-  for (const std::string& text : texts) line += fmt::format("{:<14}", text);
+  for (const std::string& text : texts) line += fmt::format("{:<{}}", text, verdict_width);
   return line;
 }
 
 void print_claim(const analysis::JudgedClaim& part, const Judgement& judgement) {
-  const std::string margin(14 * judgement.columns.size(), ' ');
+  const std::string margin(verdict_width * judgement.columns.size(), ' ');
   for (std::size_t c = 0; c < judgement.columns.size(); ++c) {
     const std::string column = judgement.side_by_side() ? judgement.columns[c] + ": " : "";
     for (const std::string& line : analysis::claim_lines(part, c, judgement)) {
@@ -55,7 +57,7 @@ void print_statement(const analysis::JudgedStatement& statement, const Judgement
   }
   const std::string number = statement.number ? fmt::format("{:<4}", statement.number) : "";
   fmt::print("{}{}{}  {}\n", verdicts(texts), number, statement.section, statement.says);
-  const std::string margin(14 * judgement.columns.size(), ' ');
+  const std::string margin(verdict_width * judgement.columns.size(), ' ');
   if (!statement.not_tested.empty()) fmt::print("{}  {}\n", margin, statement.not_tested);
   for (const analysis::JudgedClaim& part : statement.parts) {
     if (statement.parts.size() > 1) {
