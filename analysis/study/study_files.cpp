@@ -55,6 +55,23 @@ Setting::List* list_in(Setting& owner, const char* name) {
   return found ? std::get_if<Setting::List>(&found->value) : nullptr;
 }
 
+/// The values of a factor as levels, which keep the labels that its trials are stored under.
+Setting::List labelled(const std::vector<std::string>& labels, const std::string& key,
+                       const Setting::List& values) {
+  Setting::List levels;
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    Setting level;
+    level.at_or_new("label").value = labels[i];
+    if (key == "scenario") {
+      level.at_or_new("scenario") = values[i];
+    } else {
+      assign(level.at_or_new("set"), key, values[i]);
+    }
+    levels.push_back(std::move(level));
+  }
+  return levels;
+}
+
 void make_factor_absolute(Setting& factor) {
   if (Setting::List* levels = list_in(factor, "level")) {
     for (Setting& level : *levels) {
@@ -66,13 +83,24 @@ void make_factor_absolute(Setting& factor) {
   const auto* name = key ? std::get_if<std::string>(&key->value) : nullptr;
   Setting::List* values = list_in(factor, "values");
   if (!name || !values) return;
+  std::vector<std::string> labels;
+  bool changed = false;
   for (Setting& value : *values) {
+    labels.push_back(label_of(value));
     if (*name == "scenario") {
       make_base_absolute(value);
     } else {
       make_files_absolute(value, *name);
     }
+    changed |= label_of(value) != labels.back();
   }
+  if (!changed) return;
+  Setting levels;
+  levels.value = labelled(labels, *name, *values);
+  if (!factor.find("name")) factor.at_or_new("name").value = name->substr(name->rfind('.') + 1);
+  std::erase_if(factor.table(),
+                [](const auto& entry) { return entry.first == "key" || entry.first == "values"; });
+  factor.at_or_new("level") = std::move(levels);
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
     python3 inherits_test.py SHOAL
 """
 
+import csv
 import pathlib
 
 import desk
@@ -38,11 +39,9 @@ class Inherits(StudyDesk):
         cells = {}
         done = self.shoal("export", out)
         self.assertEqual(done.returncode, 0, done.stderr)
-        header, *rows = (self.desk / out / "trials.csv").read_text().splitlines()
-        names = header.split(",")
-        for row in rows:
-            trial = dict(zip(names, row.split(",")))
-            cells.setdefault(trial["settings"], []).append(trial["energy_mean_wh"])
+        with open(self.desk / out / "trials.csv", newline="", encoding="utf-8") as file:
+            for trial in csv.DictReader(file):
+                cells.setdefault(trial["settings"], []).append(trial["energy_mean_wh"])
         return cells
 
     def test_the_resolved_scenario_inherits_nothing_and_gives_the_same_bits(self):
@@ -118,10 +117,27 @@ class Inherits(StudyDesk):
         self.assertEqual(stored.count(str(self.desk.resolve() / "lab/mine.toml")), 2)
         self.assertIn('"text"', stored)
         before = self.cells()
+        self.assertEqual({name: len(cell) for name, cell in before.items()},
+                         {"text": 2, "mine.toml": 2})
         self.assertEqual(self.shoal("tables", "out").returncode, 0)
         self.sweep(study="out/study.toml", out="again")
-        self.assertEqual({len(cell) for cell in before.values()}, {2})
-        self.assertEqual(sorted(before.values()), sorted(self.cells("again").values()))
+        self.assertEqual(before, self.cells("again"))
+
+    def test_a_stored_study_keeps_the_labels_of_scenarios_that_are_files(self):
+        self.write("lab/a.toml", OWN)
+        self.write("lab/b.toml", OWN.replace("program", "text"))
+        self.write("lab/study.toml", """replications = 1
+[[factor]]
+key = "scenario"
+name = "settings"
+values = ["a.toml", "b.toml"]
+[[table]]
+name = "energy"
+rows = ["settings"]
+metrics = ["energy_mean_wh"]
+""")
+        self.assertIn("2 of 2 trials are stored", self.sweep(study="lab/study.toml"))
+        self.assertEqual(set(self.cells()), {"a.toml", "b.toml"})
 
     def test_a_study_of_unknown_settings_is_refused(self):
         self.write("study.toml", STUDY.replace('"program"]', '"progam"]'))
