@@ -41,7 +41,7 @@ Cause cause_of(const Setting& written) {
 /// Throws InputError if the statements and the claims do not belong together.
 void require_parts(const ClaimFile& file) {
   std::set<std::int64_t> worded;
-  for (const Statement& statement : file.statements) {
+  for (const StatementWords& statement : file.statements) {
     const std::string name = "statement " + std::to_string(statement.number);
     if (!worded.insert(statement.number).second) {
       throw InputError(statement.origin, "there are two [[statement]]s of number " +
@@ -110,14 +110,14 @@ void Claim::declare(Options<Claim>& o) {
             "what may be behind a contradiction; printed only if its own test holds");
 }
 
-void Statement::declare(Options<Statement>& o) {
-  o.integer("number", &Statement::number, "", in(1, 1e9), "in the list of its source");
-  o.text("section", &Statement::section, "where it is stated");
-  o.text("says", &Statement::says, "the statement");
-  o.text("not_tested", &Statement::not_tested, "why no claim tests it");
+void StatementWords::declare(Options<StatementWords>& o) {
+  o.integer("number", &StatementWords::number, "", in(1, 1e9), "in the list of its source");
+  o.text("section", &StatementWords::section, "where it is stated");
+  o.text("says", &StatementWords::says, "the statement");
+  o.text("not_tested", &StatementWords::not_tested, "why no claim tests it");
 }
 
-std::optional<std::string> Statement::complaint() const {
+std::optional<std::string> StatementWords::complaint() const {
   if (number == 0) return "a statement needs a number";
   if (says.empty()) return "a statement says something";
   return std::nullopt;

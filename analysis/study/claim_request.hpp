@@ -67,7 +67,7 @@ struct Claim : TestedStatement {
 };
 
 /// The words of a statement with several parts, or of one that is not tested.
-struct Statement {
+struct StatementWords {
   std::int64_t number = 0;
   std::string section;
   std::string says;
@@ -75,7 +75,7 @@ struct Statement {
   Origin origin;
 
   static constexpr const char* noun = "a statement";
-  static void declare(Options<Statement>& o);
+  static void declare(Options<StatementWords>& o);
   std::optional<std::string> complaint() const;
 };
 
@@ -85,7 +85,7 @@ enum class Correction { none, holm };
 struct ClaimFile {
   Correction correction = Correction::holm;
   std::string side_by_side;  ///< the factor whose levels get verdicts of their own; "" for none
-  std::vector<Statement> statements;
+  std::vector<StatementWords> statements;
   std::vector<Claim> claims;
 
   bool empty() const { return statements.empty() && claims.empty(); }

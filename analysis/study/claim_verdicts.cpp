@@ -111,7 +111,7 @@ JudgedCause judged_cause(const Cause& cause, const std::string& factor, const st
 std::vector<JudgedStatement> in_statements(std::vector<JudgedClaim> claims, const ClaimFile& file) {
   std::map<std::int64_t, JudgedStatement> numbered;
   std::vector<JudgedStatement> alone;
-  for (const Statement& statement : file.statements) {
+  for (const StatementWords& statement : file.statements) {
     numbered[statement.number] = {
         statement.number, statement.section, statement.says, statement.not_tested, {}};
   }
