@@ -164,7 +164,9 @@ TEST(UkfEstimator, EveryPropagationKeepsItsCourse) {
   for (const char* propagation : {"kinematic", "linearised", "full"}) {
     const Quality q = quality({{"propagation", propagation}});
     EXPECT_EQ(q.worst, UkfStatus::ok) << propagation;
-    if (propagation != std::string("kinematic")) EXPECT_LT(q.nees, 1.28 * 14) << propagation;
+    if (propagation != std::string("kinematic")) {
+      EXPECT_LT(q.nees, 1.28 * 14) << propagation;
+    }
     EXPECT_LT(q.estimate_error(6), q.sensor_error(6)) << propagation;
   }
 }
