@@ -11,7 +11,7 @@ namespace {
 
 // Distances are sqrt(d^2 + softening^2) in the descent, which has then a second derivative
 // everywhere; what that costs is below any tolerance of interest.
-constexpr double softening_m = 1e-4;
+constexpr double least_softening_m = 1e-4;
 constexpr int most_steps = 100;
 constexpr std::size_t most_sines = 256;
 
@@ -19,7 +19,7 @@ Eigen::Vector2d turned(const Eigen::Vector2d& p, double cosine, double sine) {
   return {cosine * p.x() - sine * p.y(), sine * p.x() + cosine * p.y()};
 }
 
-double softened(const Eigen::Vector2d& r) {
+double softened(const Eigen::Vector2d& r, double softening_m) {
   return std::sqrt(r.squaredNorm() + softening_m * softening_m);
 }
 
@@ -49,7 +49,7 @@ void PairedDistances::set(std::span<const Eigen::Vector2d> points,
   double squared = 0.0;
   for (const Eigen::Vector2d& p : points) squared += p.squaredNorm();
   radius_ = std::sqrt(squared / static_cast<double>(points.size()));
-  if (!(radius_ > softening_m)) radius_ = 1.0;
+  if (!(radius_ > least_softening_m)) radius_ = 1.0;
 }
 
 double PairedDistances::sum(const RigidPose& pose) const {
@@ -62,23 +62,24 @@ double PairedDistances::sum(const RigidPose& pose) const {
   return sum;
 }
 
-double PairedDistances::softened_sum(const RigidPose& pose) {
+double PairedDistances::softened_sum(const RigidPose& pose, double softening_m) {
   const double cosine = std::cos(pose.angle), sine = std::sin(pose.angle);
   double sum = 0.0;
   for (std::size_t i = 0; i < points_.size(); ++i) {
-    sum += softened(turned(points_[i], cosine, sine) + pose.place - targets_[i]);
+    sum += softened(turned(points_[i], cosine, sine) + pose.place - targets_[i], softening_m);
   }
   work_ += static_cast<std::int64_t>(points_.size());
   return sum;
 }
 
-PairedDistances::Derivatives PairedDistances::derivatives(const RigidPose& pose, bool turning) {
+PairedDistances::Derivatives PairedDistances::derivatives(const RigidPose& pose, bool turning,
+                                                          double softening_m) {
   const double cosine = std::cos(pose.angle), sine = std::sin(pose.angle);
   Derivatives d;
   for (std::size_t i = 0; i < points_.size(); ++i) {
     const Eigen::Vector2d arm = turned(points_[i], cosine, sine) / radius_;
     const Eigen::Vector2d r = radius_ * arm + pose.place - targets_[i];
-    const double distance = softened(r), share = 1.0 / distance;
+    const double distance = softened(r, softening_m), share = 1.0 / distance;
     const Eigen::Vector2d y = share * r;
     const Eigen::Vector2d along(-arm.y(), arm.x());
     const double y_along = turning ? y.dot(along) : 0.0;
@@ -97,11 +98,23 @@ PairedDistances::Derivatives PairedDistances::derivatives(const RigidPose& pose,
   return d;
 }
 
-// Newton's method, damped as by Levenberg and Marquardt where that does not descend.
+// The softer the distances, the farther Newton's method sees; what it leads to is the start with
+// harder ones.
 RigidPose PairedDistances::descended(RigidPose pose, bool turning) {
+  double softening_m = 0.1 * sum(pose) / static_cast<double>(points_.size());
+  while (softening_m > least_softening_m) {
+    pose = descended(pose, turning, softening_m, 1e-3 * softening_m);
+    softening_m *= 0.1;
+  }
+  return descended(pose, turning, least_softening_m, 1e-13 * (least_softening_m + sum(pose)));
+}
+
+// Newton's method, damped as by Levenberg and Marquardt where that does not descend.
+RigidPose PairedDistances::descended(RigidPose pose, bool turning, double softening_m,
+                                     double least_gain) {
   constexpr double most_damping = 1e12;
   double damping = 0.0;
-  Derivatives d = derivatives(pose, turning);
+  Derivatives d = derivatives(pose, turning, softening_m);
   for (int step = 0; step < most_steps && damping < most_damping; ++step) {
     const double scale = d.hessian.trace();
     const Eigen::Matrix3d damped = d.hessian + damping * scale * Eigen::Matrix3d::Identity();
@@ -110,12 +123,12 @@ RigidPose PairedDistances::descended(RigidPose pose, bool turning) {
     if (descends) {
       const Eigen::Vector3d move = -factors.solve(d.gradient);
       const double gain = -d.gradient.dot(move);
-      if (!(gain > 1e-13 * (softening_m + d.sum))) return pose;
+      if (!(gain > least_gain)) return pose;
       const RigidPose next{pose.angle + move[0] / radius_, pose.place + move.tail<2>()};
-      descends = softened_sum(next) < d.sum;
+      descends = softened_sum(next, softening_m) < d.sum;
       if (descends) {
         pose = next;
-        d = derivatives(pose, turning);
+        d = derivatives(pose, turning, softening_m);
         damping = damping > 1e-6 ? 0.1 * damping : 0.0;
       }
     }
@@ -130,7 +143,7 @@ PairedDistances::Sine PairedDistances::bound_at(const RigidPose& pose) {
   Eigen::Vector2d mean = Eigen::Vector2d::Zero();
   for (std::size_t i = 0; i < points_.size(); ++i) {
     const Eigen::Vector2d r = turned(points_[i], cosine, sine) + pose.place - targets_[i];
-    duals_.emplace_back(r / softened(r));
+    duals_.emplace_back(r / softened(r, least_softening_m));
     mean += duals_.back();
   }
   mean /= static_cast<double>(points_.size());

@@ -54,8 +54,9 @@ class PairedDistances {
   struct Derivatives;
 
   RigidPose descended(RigidPose pose, bool turning);
-  Derivatives derivatives(const RigidPose& pose, bool turning);
-  double softened_sum(const RigidPose& pose);
+  RigidPose descended(RigidPose pose, bool turning, double softening_m, double least_gain);
+  Derivatives derivatives(const RigidPose& pose, bool turning, double softening_m);
+  double softened_sum(const RigidPose& pose, double softening_m);
   Sine bound_at(const RigidPose& pose);
   double bound_on(double angle, double half_width) const;
 

@@ -12,6 +12,8 @@ namespace {
 
 // What rounding, and what counts as the same place, may cost.
 constexpr double rounding_m = 1e-8;
+// Of the tolerance, what the searches leave to rounding.
+constexpr double searched = 0.999;
 constexpr int first_angles = 8;
 
 using Points = std::vector<Eigen::Vector2d>;
@@ -45,9 +47,9 @@ RigidMatching::RigidMatching(std::span<const Eigen::Vector2d> slots,
                              const RigidMatchingOptions& options)
     : options_(options),
       slots_centroid_(centroid_of(checked(slots))),
-      plan_(about(slots_centroid_, slots), options.tolerance_m),
+      plan_(about(slots_centroid_, slots), searched * options.tolerance_m),
       symmetry_(rotational_symmetry(plan_.slots())),
-      lattice_(LatticeSearch::of(plan_.slots(), options.tolerance_m)) {
+      lattice_(LatticeSearch::of(plan_.slots(), searched * options.tolerance_m)) {
   if (!(options.tolerance_m > 0.0)) {
     throw std::invalid_argument("rigid matching: the tolerance must be above 0");
   }
