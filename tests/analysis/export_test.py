@@ -272,7 +272,7 @@ class CheckAndList(StudyDesk):
                                r"behaviour \(2\) x delta_theta_deg \(2\)")
         self.assertRegex(said, r"drawn +4 cells x +3 replications, latin_hypercube: "
                                r"period_s x behaviour \(2\)")
-        self.assertRegex(said, r"a study of 221 trials in \d+ cells; tables: \d+, claims: 71")
+        self.assertRegex(said, r"a study of 652 trials in \d+ cells; tables: \d+, claims: 113")
         self.assertIn("ok.toml: a scenario of 4 vehicles", said)
         self.sweep(out="out")
         self.assertEqual(len(self.tables()), 2 * 3)  # as .tex, .csv and .md
