@@ -13,8 +13,6 @@ namespace {
 // most, and by how much its part may be larger than needed before it is made anew.
 constexpr double most_margin = 4.0;
 constexpr double spare = 2.0;
-// A mean distance beyond which there is no formation to be found.
-constexpr double most_mean = 1.0;
 
 bool before(const Eigen::Vector2i& a, const Eigen::Vector2i& b) {
   return a.x() != b.x() ? a.x() < b.x() : a.y() < b.y();
@@ -41,8 +39,8 @@ LatticeSearch::LatticeSearch(const SlotLattice& lattice, std::span<const Eigen::
 
 double LatticeSearch::search(std::span<const Eigen::Vector2d> points, PoseSearch& plan,
                              std::int64_t budget) {
-  if (plan.best().sum > most_mean * width_m_ * static_cast<double>(points.size())) return 0.0;
-  const double ceiling = std::min(plan.best().sum, most_margin * width_m_);
+  const double ceiling = plan.best().sum;
+  if (ceiling > most_margin * width_m_) return 0.0;
   double farthest = 0.0;
   for (const Eigen::Vector2d& p : points) farthest = std::max(farthest, p.norm());
   cover(farthest + 0.5 * std::hypot(width_m_, height_m_) + ceiling);
@@ -52,20 +50,9 @@ double LatticeSearch::search(std::span<const Eigen::Vector2d> points, PoseSearch
   PoseBox region;
   region.arc = std::numbers::pi / lattice_.symmetry;
   region.half = {0.5 * width_m_, 0.5 * height_m_};
-  if (ceiling < plan.best().sum) try_everywhere();
   const double least = window_->search(region, window_->work() + budget);
   if (const auto pose = fitted(plan.slots())) plan.try_pose(*pose);
   return std::min(least, ceiling);
-}
-
-// Coarsely: what is known is too bad to make a search short.
-void LatticeSearch::try_everywhere() {
-  constexpr int angles = 8, places = 2;
-  for (int k = 0; k < angles * places * places; ++k) {
-    const double angle = 2.0 * std::numbers::pi * (k % angles) / (angles * lattice_.symmetry);
-    const int column = k / angles % places, row = k / angles / places;
-    window_->try_pose({angle, {width_m_ * column / places, height_m_ * row / places}});
-  }
 }
 
 void LatticeSearch::cover(double radius_m) {

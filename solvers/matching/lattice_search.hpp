@@ -34,7 +34,6 @@ class LatticeSearch {
  private:
   LatticeSearch(const SlotLattice& lattice, std::span<const Eigen::Vector2d> slots,
                 double tolerance_m);
-  void try_everywhere();
   void cover(double radius_m);
   std::optional<RigidPose> fitted(std::span<const Eigen::Vector2d> slots) const;
 

@@ -26,6 +26,19 @@ bool later(const PoseBox& a, const PoseBox& b) {
   return a.bound != b.bound ? a.bound > b.bound : a.serial > b.serial;
 }
 
+/// From a slot to the nearest other, on average.
+double spacing_of(std::span<const Eigen::Vector2d> slots) {
+  double sum = 0.0;
+  for (const Eigen::Vector2d& slot : slots) {
+    double least = infinity;
+    for (const Eigen::Vector2d& other : slots) {
+      if (&other != &slot) least = std::min(least, (other - slot).squaredNorm());
+    }
+    sum += std::sqrt(least);
+  }
+  return sum / static_cast<double>(slots.size());
+}
+
 }  // namespace
 
 PoseSearch::PoseSearch(std::span<const Eigen::Vector2d> slots, double tolerance_m)
@@ -33,7 +46,8 @@ PoseSearch::PoseSearch(std::span<const Eigen::Vector2d> slots, double tolerance_
       slots_(slots.begin(), slots.end()),
       slot_x_(static_cast<Eigen::Index>(slots.size())),
       slot_y_(slot_x_.size()),
-      field_(slots) {
+      field_(slots),
+      spacing_m_(spacing_of(slots)) {
   for (Eigen::Index j = 0; j < slot_x_.size(); ++j) {
     slot_x_[j] = slots_[static_cast<std::size_t>(j)].x();
     slot_y_[j] = slots_[static_cast<std::size_t>(j)].y();
@@ -46,6 +60,7 @@ void PoseSearch::set_points(std::span<const Eigen::Vector2d> points, double ceil
   for (const Eigen::Vector2d& p : points_) radius_.push_back(p.norm());
   mean_radius_ =
       std::accumulate(radius_.begin(), radius_.end(), 0.0) / static_cast<double>(radius_.size());
+  farthest_ = *std::ranges::max_element(radius_);
   known_count_ = 0;
   best_.sum = ceiling;
   best_.slot_of_point.clear();
@@ -188,8 +203,10 @@ void PoseSearch::glance(PoseBox& box) {
     bound += std::max(nearest - radius_[i] * spread - reach, 0.0);
   }
   box.bound = std::max(box.bound, bound);
-  const double radii = count * (mean_radius_ * spread + reach);
-  box.nearest_suffice = middle - limit() >= enough_lead * radii;
+  const double lead = middle - limit();
+  const bool wide = middle / count + farthest_ * spread + reach > 0.5 * spacing_m_;
+  box.nearest_suffice =
+      lead >= 0.0 && (wide || lead > enough_lead * count * (mean_radius_ * spread + reach));
 }
 
 void PoseSearch::look(PoseBox& box) {

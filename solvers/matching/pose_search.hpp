@@ -87,10 +87,11 @@ class PoseSearch {
   std::vector<Eigen::Vector2d> slots_;
   Eigen::ArrayXd slot_x_, slot_y_;
   SlotField field_;
+  double spacing_m_;  // an assignment tells most once the discs are smaller
 
   std::vector<Eigen::Vector2d> points_;
   std::vector<double> radius_;  // of the points
-  double mean_radius_ = 0.0;
+  double mean_radius_ = 0.0, farthest_ = 0.0;
   std::vector<Eigen::Vector2d> discs_, targets_;
   std::vector<double> disc_radius_, costs_, reduced_;
   std::vector<std::vector<int>> rivals_;

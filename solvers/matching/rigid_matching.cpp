@@ -1,6 +1,7 @@
 #include "shoal/solvers/matching/rigid_matching.hpp"
 
 #include <algorithm>
+#include <limits>
 #include <numbers>
 #include <numeric>
 #include <stdexcept>
@@ -73,23 +74,22 @@ RigidMatch RigidMatching::match(std::span<const Eigen::Vector2d> points,
   const auto open = [&](double bound) {
     return plan_.best().sum - bound > options_.tolerance_m * count;
   };
-  double least = 0.0;
+  double least = 0.0, tried = std::numeric_limits<double>::infinity();
   const auto search_lattice = [&] {
-    if (lattice_ && open(least)) {
-      least = std::max(least, lattice_->search(points_, plan_, 3 * (end - work()) / 4));
-    }
+    if (!lattice_ || !open(least) || plan_.best().sum >= tried) return;
+    tried = plan_.best().sum;
+    least = std::max(least, lattice_->search(points_, plan_, 9 * (end - work()) / 10));
   };
   search_lattice();
-  if (open(least)) {
-    const double before = plan_.best().sum;
-    if (prior) try_turns(end);
-    if (plan_.best().sum < before) search_lattice();
-  }
+  if (prior && open(least)) try_turns(end);
+  search_lattice();
   if (open(least)) {
     PoseBox region = plan_.promising();
     region.arc = std::numbers::pi / symmetry_;
-    least = std::max(least, plan_.search(region, end - (work() - plan_.work())));
+    const std::int64_t kept = lattice_ ? (end - work()) / 3 : 0;
+    least = std::max(least, plan_.search(region, plan_.work() + end - work() - kept));
   }
+  search_lattice();
 
   const RigidPose& pose = plan_.best().pose;
   const Transform2 turn = Transform2::from_angle(pose.angle, Eigen::Vector2d::Zero());
