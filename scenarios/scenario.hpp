@@ -81,7 +81,7 @@ struct QualityOptions {
   std::int64_t layers = 1;
   Alignment alignment = Alignment::rigid;
   double tolerance_m = 0.01;
-  std::int64_t budget = 250'000;
+  std::int64_t budget = 400'000;
   double delta_theta_deg = 10.0;
 
   static void declare(Options<QualityOptions>& o);

@@ -17,7 +17,7 @@ struct RigidMatchingOptions {
   double tolerance_m = 0.01;  ///< between the mean distance and its lower bound; above 0
   /// How many distances are looked at before the search ends with a wider gap; the first few
   /// assignments are made in any case.
-  std::int64_t budget = 250'000;
+  std::int64_t budget = 400'000;
 };
 
 enum class RigidMatchStatus : std::uint8_t {
