@@ -180,10 +180,10 @@ TEST(Quality, OfTwoVehiclesIsHalfTheErrorOfTheirDistance) {
   const Results results = run(parked, {"plan.square.rows=1", "swarm.start.kind=points",
                                        "swarm.start.points.points=[[0,0],[400,0]]"})
                               .results;
-  EXPECT_NEAR(*results.at("quality_final_m"), 50.0, 1e-6);
-  EXPECT_NEAR(*results.at("quality_settled_m"), 50.0, 1e-6);
-  EXPECT_NEAR(*results.at("quality_worst_m"), 50.0, 1e-6);
-  EXPECT_NEAR(*results.at("quality_last_m"), 50.0, 1e-6);
+  EXPECT_NEAR(*results.at("quality_final_m"), 50.0, 1e-9);
+  EXPECT_NEAR(*results.at("quality_settled_m"), 50.0, 1e-9);
+  EXPECT_NEAR(*results.at("quality_worst_m"), 50.0, 1e-9);
+  EXPECT_NEAR(*results.at("quality_last_m"), 50.0, 1e-9);
   EXPECT_EQ(results.at("time_to_quality_20m_s"), std::nullopt);
   EXPECT_EQ(results.at("quality_watched_s"), 60.0);
   EXPECT_EQ(results.at("energy_to_quality_20m_wh"), results.at("energy_mean_wh"));
@@ -214,10 +214,9 @@ TEST(Quality, IsNotMeasuredWhenNobodyAsks) {
 }
 
 TEST(Quality, OfAnySwarmHasABound) {
-  const Results results =
-      run(parked, {"plan.square={rows=30,columns=20}", "trial.duration_s=10",
-                   "swarm.start.kind=box", "swarm.start.box.side_m=3000"})
-          .results;
+  const Results results = run(parked, {"plan.square={rows=30,columns=20}", "trial.duration_s=10",
+                                       "swarm.start.kind=box", "swarm.start.box.side_m=3000"})
+                              .results;
   EXPECT_GT(*results.at("quality_final_m"), 100.0);
   EXPECT_GE(*results.at("quality_gap_max_m"), 0.0);
   EXPECT_LE(*results.at("quality_gap_max_m"), *results.at("quality_worst_m"));
