@@ -63,7 +63,8 @@ struct UkfUpdate {
 ///
 /// Measurement noise with a memory, n(k+1) = Phi n(k) + w, is made white by differences (Bryson and
 /// Henrikson 1968): given the state before, y(k+1) - Phi y(k) = h(x(k+1)) - Phi h(x(k)) + w. A
-/// value whose predecessor was not used starts afresh, with R_n.
+/// value whose predecessor was not used starts afresh, with R_n: what the noise has in common with
+/// that before the gap is not known then, and the filter is a little too sure of itself.
 template <int N, int M>
 class Ukf {
  public:

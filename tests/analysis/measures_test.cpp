@@ -185,7 +185,7 @@ TEST(Quality, OfTwoVehiclesIsHalfTheErrorOfTheirDistance) {
   EXPECT_NEAR(*results.at("quality_worst_m"), 50.0, 1e-9);
   EXPECT_NEAR(*results.at("quality_last_m"), 50.0, 1e-9);
   EXPECT_EQ(results.at("time_to_quality_20m_s"), std::nullopt);
-  EXPECT_EQ(results.at("quality_watched_s"), 60.0);
+  EXPECT_EQ(results.at("quality_watched_s"), 100.0);
   EXPECT_EQ(results.at("energy_to_quality_20m_wh"), results.at("energy_mean_wh"));
 }
 
@@ -370,7 +370,8 @@ TEST(Estimation, OfVehiclesThatKnowTheirStatesIsNotMeasured) {
 TEST(Estimation, TellsErrorsFaultsAndConsistency) {
   const Results results =
       run(both(two_on_their_way, {"swarm.vehicle.nps_auv.estimator.kind=ukf"})).results;
-  EXPECT_NEAR(*results.at("position_error_rms_m"), 1.0, 0.7);
+  EXPECT_GT(*results.at("position_error_rms_m"), 0.3);
+  EXPECT_LT(*results.at("position_error_rms_m"), 3.0);  // the noise of the fixes
   EXPECT_LT(*results.at("speed_error_rms_m_s"), 0.1);
   EXPECT_LT(*results.at("heading_error_rms_deg"), 4.0);
   EXPECT_GT(*results.at("nees_mean"), 2.0);

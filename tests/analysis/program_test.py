@@ -21,7 +21,8 @@ min_separation_m fragments lost_vehicles energy_spread_wh energy_rate_w rotation
 # Of trials with a way-point, or vehicles that estimate their states.
 ELSEWHERE = """arrived_vehicles stranded_share arrival_first_s clearance_min_m cell_error_rms_m
 control_effort_m_s outside_envelope_share position_error_rms_m nees_mean fault_share""".split()
-BESIDE = ["scenario", "behaviour", "seed", "program", "vehicles", "duration_s", "wall_s",
+BESIDE = ["scenario", "behaviour", "seed", "program", "vehicles", "duration_s", "mission_s",
+          "stopped_by", "wall_s",
           "vehicle_seconds_per_wall_s", "metrics"]
 BEHAVIOURS = ["assignment_registration", "attraction_repulsion", "pairwise_referencing",
               "rigid_registration"]
@@ -114,7 +115,7 @@ class Trials(Desk):
         heads = [json.loads(line) for line in (self.desk / "c.jsonl").read_text().splitlines()]
         heads = [head for head in heads if "plan" in head]
         scenarios = self.shoal("list", "scenarios").stdout.splitlines()[1:]
-        self.assertEqual(len(heads), len(scenarios) * (len(BEHAVIOURS) + 2))
+        self.assertEqual(len(heads), len(scenarios) * (len(BEHAVIOURS) + 3))
         again = self.shoal("corpus", "d.jsonl", "--duration", "60", "--keep", "2")
         self.assertEqual(again.returncode, 0)
         self.assertEqual((self.desk / "c.jsonl").read_bytes(),

@@ -10,7 +10,7 @@ import desk
 from desk import Desk
 
 SERIES = {
-    "quality": "m", "quality_gap_m": "m", "energy_mean_wh": "W h", "energy_min_wh": "W h", "energy_max_wh": "W h",
+    "quality": "m", "quality_gap_m": "m", "empty_vehicles": "1", "energy_mean_wh": "W h", "energy_min_wh": "W h", "energy_max_wh": "W h",
     "centroid_path_m": "m", "efficiency_m_per_wh": "m W-1 h-1", "thrust_time_ratio_mean": "1",
     "thrust_time_ratio_min": "1", "thrust_time_ratio_max": "1",
     "thrust_distance_ratio_mean": "1", "thrust_distance_ratio_min": "1",

@@ -160,7 +160,7 @@ TEST(Tables, ShowHowManyReachedAnEventAndWhatElseIsToSay) {
                             .remarks = {"Skewed."},
                             .each = {1.5, 2.0}});
   EXPECT_EQ(print(table, text),
-            "what                       x\n"
+            "what                        x\n"
             "a     1350 +- 40 (18 of 20)^a\n"
             "\nn = 20 throughout.\n^a Skewed.\n");
   EXPECT_EQ(print(table, csv),

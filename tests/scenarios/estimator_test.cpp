@@ -303,7 +303,7 @@ TEST(VehicleFilterOptions, NameWhatIsWrong) {
     EXPECT_NE(std::string(wrong.what()).find("kinematic"), std::string::npos) << wrong.what();
   }
   Setting table;
-  assign(table, "scaling.kappa", {-12.0, {}});
+  assign(table, "scaling.kappa", {-14.0, {}});
   const auto how = Registry<Estimator>::instance().make("ukf", table, "estimator.ukf");
   EXPECT_THROW(how->launch({VehicleState::Zero()}, {}, RandomStreams(1), period_s), InputError);
   EXPECT_THROW(estimator("ukf")->launch({VehicleState::Zero()}, {}, RandomStreams(1), 0.0),

@@ -156,7 +156,7 @@ TEST(UkfWithRememberingNoise, IsTheKalmanFilterThatEstimatesTheNoise) {
   }
 }
 
-Consistency with_memory(bool knows) {
+Consistency with_memory(bool knows, bool gaps = false) {
   const Vector4d start_sd(1.0, 1.0, 0.3, 0.3);
   const auto place = [](const Vector4d& x) -> Vector2d { return x.head<2>(); };
   Consistency sum;
@@ -171,7 +171,7 @@ Consistency with_memory(bool knows) {
       truth = glide(truth) + Vector4d(0.02, 0.02, 0.05, 0.05).cwiseProduct(normals(run, 2 * k));
       ukf.predict(glide, place);
       Vector2d y = truth.head<2>() + sensor.next(normals(run, 2 * k + 1).head<2>());
-      if ((run + k) % 7 == 0) y(0) = std::numeric_limits<double>::quiet_NaN();
+      if (gaps && (run + k) % 7 == 0) y(0) = std::numeric_limits<double>::quiet_NaN();
       const auto& update = ukf.correct(y, place);
       nis = update.nis / update.used;
     }
@@ -188,6 +188,12 @@ TEST(UkfWithRememberingNoise, IsConsistentAndTooSureIfTheMemoryIsLeftOut) {
   EXPECT_GT(below(knowing, 4 * runs), 0.025) << knowing / runs;
   EXPECT_LT(below(knowing, 4 * runs), 0.975) << knowing / runs;
   EXPECT_GT(with_memory(false).nees / runs, 6.0);
+}
+
+TEST(UkfWithRememberingNoise, IsALittleTooSureWhereGapsMakeItStartAfresh) {
+  const double with_gaps = with_memory(true, true).nees;
+  EXPECT_GT(below(with_gaps, 4 * runs), 0.999);
+  EXPECT_LT(with_gaps / runs, 5.2);
 }
 
 TEST(UkfWithRememberingNoise, RefusesCorrelationsThatAreNone) {
