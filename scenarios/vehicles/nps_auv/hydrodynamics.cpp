@@ -231,9 +231,9 @@ NpsAuvModel::Vector6 NpsAuvModel::forces(const VehicleState& x, const NpsAuvInpu
 VehicleState NpsAuvModel::derivative(const VehicleState& state, const NpsAuvInputs& inputs,
                                      const Eigen::Vector2d& water,
                                      const Vector6& disturbance) const {
-  // Velocities relative to the water feel the forces, and the water carries the body along: exact for
-  // a uniform steady current. A body that crosses a shear at a speed u through the water is carried
-  // over without inertia, which leaves out an acceleration of u grad(c).
+  // Velocities relative to the water feel the forces, and the water carries the body along: exact
+  // for a uniform steady current. A body that crosses a shear at a speed u through the water is
+  // carried over without inertia, which leaves out an acceleration of u grad(c).
   VehicleState rate;
   rate.head<6>().noalias() = inverse_mass_ * forces(state, inputs) + disturbance;
   rate.segment<3>(6) = KinematicModel::velocity(state.tail<3>(), state.head<3>());
