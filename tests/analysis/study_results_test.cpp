@@ -228,7 +228,7 @@ name = "a"
 rows = ["behaviour"]
 columns = ["period"]
 metrics = ["energy_mean_wh"]
-statistic = "count"
+statistic = "mean"
 [[comparison]]
 name = "b"
 factor = "behaviour"

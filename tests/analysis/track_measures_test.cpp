@@ -142,7 +142,7 @@ TEST(SlotKeeping, SeesTheWorseQualityWhileAVehicleChangesItsSlot) {
       run({parked,
            {"trial.duration_s=6000", "current.kind=channels", "swarm.start.kind=points",
             "current.channels={speed_m_s=0.1,half_width_m=760}",
-            "quality={every_s=30,layers=2,alignment=centroid}",
+            "quality={every_s=30,layers=2,alignment=\"centroid\"}",
             at({{0, 100},
                 {300, 100},
                 {600, 100},
