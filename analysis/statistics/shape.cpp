@@ -71,19 +71,19 @@ double doubled_dip(const std::vector<double>& x) {
     const std::vector<Corner> convex = hull(lower, 1.0), concave = hull(upper, -1.0);
     // The two are furthest apart at a corner of one of them.
     double gap = 0.0, from = x[low], to = x[high];
-    for (std::size_t k = 0; k < convex.size(); ++k) {
-      const double apart = at(concave, convex[k].x) - convex[k].count;
+    for (const Corner& corner : convex) {
+      const double apart = at(concave, corner.x) - corner.count;
       if (apart > gap) {
         gap = apart;
-        from = convex[k].x;
+        from = corner.x;
         to = std::ranges::lower_bound(concave, from, {}, &Corner::x)->x;
       }
     }
-    for (std::size_t k = 0; k < concave.size(); ++k) {
-      const double apart = concave[k].count - at(convex, concave[k].x);
+    for (const Corner& corner : concave) {
+      const double apart = corner.count - at(convex, corner.x);
       if (apart > gap) {
         gap = apart;
-        to = concave[k].x;
+        to = corner.x;
         from = (std::ranges::upper_bound(convex, to, {}, &Corner::x) - 1)->x;
       }
     }

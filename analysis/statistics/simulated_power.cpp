@@ -64,10 +64,10 @@ int critical_sum(int n, double alpha) {
     for (std::size_t s = all; s >= rank; --s) chance[s] = (chance[s] + chance[s - rank]) / 2.0;
     for (std::size_t s = 0; s < rank; ++s) chance[s] /= 2.0;
   }
-  int critical = -1;
+  std::size_t sums = 0;  // that are rare enough, from 0 on
   double below = 0.0;
-  while (2.0 * (below += chance[static_cast<std::size_t>(critical + 1)]) <= alpha) ++critical;
-  return critical;
+  while (2.0 * (below += chance[sums]) <= alpha) ++sums;
+  return static_cast<int>(sums) - 1;
 }
 
 bool signed_rank_rejects(std::vector<double> differences, int critical) {
