@@ -44,8 +44,9 @@ Observed observed(const Current& current, const DriftingWindow& window) {
   const Index points = columns * rows;
   ArrayXd x0(points), y0(points);
   for (Index i = 0; i < points; ++i) {
-    x0[i] = window.spacing_m * static_cast<double>(i % columns) - 0.5 * window.width_m;
-    y0[i] = window.spacing_m * static_cast<double>(i / columns) - 0.5 * window.height_m;
+    const Index column = i % columns, row = i / columns;
+    x0[i] = window.spacing_m * static_cast<double>(column) - 0.5 * window.width_m;
+    y0[i] = window.spacing_m * static_cast<double>(row) - 0.5 * window.height_m;
   }
   const auto size = static_cast<std::size_t>(points);
   Observed seen{
@@ -103,7 +104,8 @@ std::optional<double> falls_to_1_e(Index lags, double step, const Correlation& c
 std::vector<CurrentStatistic> current_statistics(const Current& current,
                                                  const DriftingWindow& window) {
   Observed seen = observed(current, window);
-  auto& [u, v] = seen.velocities;
+  Eigen::ArrayXXd& u = seen.velocities.u;
+  Eigen::ArrayXXd& v = seen.velocities.v;
   const Index apart = whole(shear_distance_m, window.spacing_m, "shear distance");
   const double shear = std::sqrt(mean_over_pairs(
       seen, apart, [](const auto& a, const auto& b) { return (a - b).square().sum(); }));
