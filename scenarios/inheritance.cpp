@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <fstream>
-#include <ranges>
 
 #include "shoal/core/options.hpp"
 #include "shoal/core/text.hpp"
@@ -51,8 +50,9 @@ class Resolver {
 
   /// `below`: the files on the way from the first one to this.
   Setting filled(Setting root, const std::vector<fs::path>& below) {
-    const std::vector<Setting> named = take_names(root);
-    for (const Setting& each : std::views::reverse(named)) {
+    std::vector<Setting> named = take_names(root);
+    std::ranges::reverse(named);  // what is nearer to the file comes first, and holds
+    for (const Setting& each : named) {
       const fs::path file = fs::weakly_canonical(file_of(each));
       if (std::ranges::find(below, file) != below.end()) {
         throw InputError(each.origin, file.string() +
