@@ -1,5 +1,27 @@
 "use strict";
 
+/** The rigid motion of slots onto places with the least weighted squares (Horn 1987 in the plane), or
+    null where it has no angle. */
+function fitted(pairs, weights) {
+  const all = weights.reduce((sum, weight) => sum + weight, 0);
+  const mean = side => [0, 1].map(
+    axis => pairs.reduce((sum, pair, i) => sum + weights[i] * pair[side][axis], 0) / all);
+  const [from, to] = [mean(0), mean(1)];
+  let cosine = 0;
+  let sine = 0;
+  pairs.forEach(([slot, place], i) => {
+    const [sx, sy, px, py] = [slot[0] - from[0], slot[1] - from[1],
+                              place[0] - to[0], place[1] - to[1]];
+    cosine += weights[i] * (sx * px + sy * py);
+    sine += weights[i] * (sx * py - sy * px);
+  });
+  const size = Math.hypot(cosine, sine);
+  if (size === 0) return null;
+  [cosine, sine] = [cosine / size, sine / size];
+  return ([x, y]) => [to[0] + cosine * (x - from[0]) - sine * (y - from[1]),
+                      to[1] + sine * (x - from[0]) + cosine * (y - from[1])];
+}
+
 /** A recorded trial: numbers of each vehicle at any time, metres east and north, degrees of the
     compass. */
 class Trial {
@@ -71,8 +93,9 @@ class Trial {
     return this.matches.subarray(row, row + this.size);
   }
 
-  /** Where the plan lies that fits the vehicles best, as pairs (or null where none is left):
-      Horn 1987 in the plane. */
+  /** Where the plan lies that fits the vehicles best, as pairs (or null where none is left): at the
+      least sum of distances, as the formation quality lays it. Weiszfeld's iteration of weighted
+      least squares. */
   fittedPlan(time) {
     if (this.matchTime.length === 0) return null;
     const slots = this.slots(time);
@@ -83,23 +106,15 @@ class Trial {
       }
     }
     if (pairs.length < 2) return null;
-    const mean = side => [0, 1].map(axis => pairs.reduce((sum, pair) => sum + pair[side][axis], 0)
-                                            / pairs.length);
-    const [from, to] = [mean(0), mean(1)];
-    let cosine = 0;
-    let sine = 0;
-    for (const [slot, place] of pairs) {
-      const [sx, sy, px, py] = [slot[0] - from[0], slot[1] - from[1],
-                                place[0] - to[0], place[1] - to[1]];
-      cosine += sx * px + sy * py;
-      sine += sx * py - sy * px;
+    let move = fitted(pairs, pairs.map(() => 1));
+    for (let step = 0; move && step < 50; ++step) {
+      const away = pairs.map(([slot, place]) => {
+        const [x, y] = move(slot);
+        return Math.hypot(x - place[0], y - place[1]);
+      });
+      move = fitted(pairs, away.map(distance => 1 / Math.max(distance, 1e-3)));
     }
-    const size = Math.hypot(cosine, sine);
-    if (size === 0) return null;
-    [cosine, sine] = [cosine / size, sine / size];
-    return this.data.plan.map(([x, y]) => [
-      to[0] + cosine * (x - from[0]) - sine * (y - from[1]),
-      to[1] + sine * (x - from[0]) + cosine * (y - from[1])]);
+    return move && this.data.plan.map(move);
   }
 
   /** [least, greatest] of everywhere that vehicles, obstacles and the way-point are. */
