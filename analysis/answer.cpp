@@ -6,7 +6,7 @@ namespace shoal::analysis {
 namespace {
 
 template <class Member, class Problem>
-auto solved_in_time(const Member& solver, const Problem& problem, Answer& answer) {
+auto solved_in_time(const Member& solver, const Problem& problem, SolverAnswer& answer) {
   const auto begin = std::chrono::steady_clock::now();
   const auto solution = solver.solve(problem);
   answer.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
@@ -14,8 +14,8 @@ auto solved_in_time(const Member& solver, const Problem& problem, Answer& answer
   return solution;
 }
 
-Answer refusal(std::string why) {
-  Answer answer;
+SolverAnswer refusal(std::string why) {
+  SolverAnswer answer;
   answer.refused = true;
   answer.status = std::move(why);
   return answer;
@@ -32,9 +32,9 @@ Eigen::VectorXd stacked(std::size_t count, Point point) {
 
 }  // namespace
 
-Answer answered(const solvers::Solver& solver, const solvers::Problem& problem) {
+SolverAnswer answered(const solvers::Solver& solver, const solvers::Problem& problem) {
   if (auto why = solver.refuses(problem)) return refusal(std::move(*why));
-  Answer answer;
+  SolverAnswer answer;
   const solvers::Solution solution = solved_in_time(solver, problem, answer);
   answer.solved = solution.status == solvers::Status::converged;
   answer.status = name_of(solution.status);
@@ -43,10 +43,10 @@ Answer answered(const solvers::Solver& solver, const solvers::Problem& problem) 
   return answer;
 }
 
-Answer answered(const solvers::RegistrationSolver& solver,
-                const solvers::RegistrationProblem& problem) {
+SolverAnswer answered(const solvers::RegistrationSolver& solver,
+                      const solvers::RegistrationProblem& problem) {
   if (auto why = solver.refuses(problem)) return refusal(std::move(*why));
-  Answer answer;
+  SolverAnswer answer;
   const solvers::RegistrationSolution solution = solved_in_time(solver, problem, answer);
   answer.solved = solution.status == solvers::RegistrationStatus::fitted;
   answer.status = name_of(solution.status);
@@ -57,8 +57,8 @@ Answer answered(const solvers::RegistrationSolver& solver,
   return answer;
 }
 
-Answer answered(const solvers::Matcher& solver, const solvers::MatchingProblem& problem) {
-  Answer answer;
+SolverAnswer answered(const solvers::Matcher& solver, const solvers::MatchingProblem& problem) {
+  SolverAnswer answer;
   const solvers::MatchingSolution solution = solved_in_time(solver, problem, answer);
   answer.solved = solution.usable();
   answer.status = solution.usable() ? "matched" : "bad_input";

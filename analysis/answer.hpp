@@ -10,7 +10,7 @@
 namespace shoal::analysis {
 
 /// A solver's answer to a problem, in a form that all families share.
-struct Answer {
+struct SolverAnswer {
   bool refused = false;
   bool solved = false;
   std::string status;     ///< of one that was refused, the reason
@@ -20,9 +20,9 @@ struct Answer {
   double seconds = 0.0;
 };
 
-Answer answered(const solvers::Solver& solver, const solvers::Problem& problem);
-Answer answered(const solvers::RegistrationSolver& solver,
-                const solvers::RegistrationProblem& problem);
-Answer answered(const solvers::Matcher& solver, const solvers::MatchingProblem& problem);
+SolverAnswer answered(const solvers::Solver& solver, const solvers::Problem& problem);
+SolverAnswer answered(const solvers::RegistrationSolver& solver,
+                      const solvers::RegistrationProblem& problem);
+SolverAnswer answered(const solvers::Matcher& solver, const solvers::MatchingProblem& problem);
 
 }  // namespace shoal::analysis

@@ -21,7 +21,7 @@ std::vector<double> least(const ContenderFamily& family, Quantity quantity) {
   std::vector<double> values(problems(family), std::numeric_limits<double>::infinity());
   for (const Contender& contender : family.contenders) {
     for (std::size_t k = 0; k < values.size(); ++k) {
-      const Answer& answer = contender.answers[k];
+      const SolverAnswer& answer = contender.answers[k];
       if (answer.solved) values[k] = std::min(values[k], static_cast<double>(quantity(answer)));
     }
   }
@@ -70,7 +70,7 @@ Tally tally_of(const Contender& contender, const Contender& reference,
                const std::vector<double>& lowest, double same_within_m) {
   Tally tally;
   for (std::size_t k = 0; k < contender.answers.size(); ++k) {
-    const Answer& answer = contender.answers[k];
+    const SolverAnswer& answer = contender.answers[k];
     if (!answer.solved) {
       ++tally.failures[answer.refused ? "refused: " + answer.status : answer.status];
       continue;
@@ -79,7 +79,7 @@ Tally tally_of(const Contender& contender, const Contender& reference,
     tally.evaluations.push_back(answer.evaluations);
     tally.microseconds.push_back(1e6 * answer.seconds);
     tally.worst_gap = std::max(tally.worst_gap, answer.cost - lowest[k]);
-    const Answer& known = reference.answers[k];
+    const SolverAnswer& known = reference.answers[k];
     if (!known.solved) continue;
     const bool near = (answer.place - known.place).norm() <= same_within_m;
     ++(near ? tally.same : tally.other);
@@ -96,7 +96,7 @@ void add_profile(const ContenderFamily& family, const char* measure, Effort effo
       const double factor = std::exp2(static_cast<double>(step) / steps_per_octave);
       double within = 0.0;
       for (std::size_t k = 0; k < best.size(); ++k) {
-        const Answer& answer = contender.answers[k];
+        const SolverAnswer& answer = contender.answers[k];
         within += answer.solved && effort(answer) <= factor * best[k] ? 1.0 : 0.0;
       }
       table.rows.push_back(
@@ -117,7 +117,7 @@ Table comparison_table(const SolverComparison& comparison, double same_within_m)
   }
   for (const ContenderFamily* family : comparison.families()) {
     const std::vector<double> lowest =
-        least(*family, [](const Answer& answer) { return answer.cost; });
+        least(*family, [](const SolverAnswer& answer) { return answer.cost; });
     const std::size_t posed = problems(*family);
     for (const Contender& contender : family->contenders) {
       const Tally tally =
@@ -141,8 +141,8 @@ Table performance_profiles(const SolverComparison& comparison) {
   }
   for (const ContenderFamily* family : comparison.families()) {
     add_profile(
-        *family, "seconds", [](const Answer& answer) { return answer.seconds; }, table);
-    const auto evaluations = [](const Answer& answer) { return answer.evaluations; };
+        *family, "seconds", [](const SolverAnswer& answer) { return answer.seconds; }, table);
+    const auto evaluations = [](const SolverAnswer& answer) { return answer.evaluations; };
     if (std::ranges::any_of(least(*family, evaluations), [](double n) { return n > 0.0; })) {
       add_profile(*family, "evaluations", evaluations, table);
     }

@@ -19,7 +19,7 @@ struct ComparisonSettings {
 /// One solver, and its answers to all problems of its family in their order.
 struct Contender {
   std::string name;
-  std::vector<Answer> answers;
+  std::vector<SolverAnswer> answers;
 };
 
 struct ContenderFamily {

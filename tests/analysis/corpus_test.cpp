@@ -165,7 +165,8 @@ TEST_F(Corpora, AreSolvedByTheSolversOfTheirFamilies) {
     for (const Contender& contender : family->contenders) {
       EXPECT_EQ(contender.answers.size(), family->contenders.front().answers.size());
       if (contender.name == "nlopt.slsqp") continue;  // it stops early in flat valleys
-      for (const Answer& answer : contender.answers) EXPECT_TRUE(answer.solved) << answer.status;
+      for (const SolverAnswer& answer : contender.answers)
+        EXPECT_TRUE(answer.solved) << answer.status;
     }
   }
   const std::string table = print(comparison_table(comparison, 0.01), TableFormat::csv);
