@@ -3,14 +3,14 @@
 namespace shoal::solvers {
 namespace {
 
-struct Square final : Loss {
+struct SquaredResidual final : Loss {
   LossValue at(double squared) const override { return {squared, 1.0, 0.0}; }
   bool is_square() const override { return true; }
 
-  static void declare(Options<Square>&) {}
+  static void declare(Options<SquaredResidual>&) {}
 };
 
-const Enrol<Loss, Square> enrolled{"least_squares", "the square of the residual"};
+const Enrol<Loss, SquaredResidual> enrolled{"least_squares", "the square of the residual"};
 
 }  // namespace
 }  // namespace shoal::solvers

@@ -4,10 +4,10 @@
 #include <algorithm>
 #include <numeric>
 
+#include "shoal/solvers/matching/points.hpp"
+
 namespace shoal::solvers {
 namespace {
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 std::size_t at(int i) {
   return static_cast<std::size_t>(i);

@@ -5,12 +5,11 @@
 #include <numeric>
 
 #include "shoal/core/transform.hpp"
+#include "shoal/solvers/matching/points.hpp"
 
 namespace shoal::solvers {
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
-constexpr double same_place_m = 1e-9;
 constexpr double same_sum_m = 1e-9;
 constexpr std::int64_t lookup_work = 4;  // takes as long as so many distances
 // An assignment tells little about a box that leaves the angle so open.

@@ -6,6 +6,7 @@
 #include <numeric>
 #include <stdexcept>
 
+#include "shoal/solvers/matching/points.hpp"
 #include "shoal/solvers/matching/slot_lattice.hpp"
 
 namespace shoal::solvers {
@@ -25,10 +26,6 @@ Eigen::Vector2d centroid_of(std::span<const Eigen::Vector2d> points) {
   return sum / static_cast<double>(points.size());
 }
 
-bool finite(std::span<const Eigen::Vector2d> points) {
-  return std::ranges::all_of(points, [](const Eigen::Vector2d& p) { return p.allFinite(); });
-}
-
 Points about(const Eigen::Vector2d& centre, std::span<const Eigen::Vector2d> points) {
   Points moved;
   for (const Eigen::Vector2d& p : points) moved.push_back(p - centre);
@@ -36,7 +33,7 @@ Points about(const Eigen::Vector2d& centre, std::span<const Eigen::Vector2d> poi
 }
 
 std::span<const Eigen::Vector2d> checked(std::span<const Eigen::Vector2d> slots) {
-  if (slots.empty() || !finite(slots)) {
+  if (slots.empty() || !all_finite(slots)) {
     throw std::invalid_argument("rigid matching: no slots, or slots that are not finite");
   }
   return slots;
@@ -58,7 +55,7 @@ RigidMatching::RigidMatching(std::span<const Eigen::Vector2d> slots,
 
 RigidMatch RigidMatching::match(std::span<const Eigen::Vector2d> points,
                                 const std::optional<Transform2>& prior) {
-  if (points.empty() || points.size() > plan_.slots().size() || !finite(points)) {
+  if (points.empty() || points.size() > plan_.slots().size() || !all_finite(points)) {
     throw std::invalid_argument(
         "rigid matching: no points, more than slots, or points that are not finite");
   }

@@ -7,16 +7,12 @@
 #include "shoal/core/angles.hpp"
 #include "shoal/core/error.hpp"
 #include "shoal/core/text.hpp"
+#include "shoal/solvers/matching/points.hpp"
 
 namespace shoal::solvers {
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double division_tolerance = 1e-9;
-
-std::size_t at(int i) {
-  return static_cast<std::size_t>(i);
-}
 
 }  // namespace
 
@@ -94,8 +90,8 @@ TurnedMatch RotationSearch::search(const Turns& turns, const AlignedSlots& slots
   // Round the circle from the most promising turn, so that the prices of one turn fit the next.
   Eigen::Index first = 0;
   if (glance_.minCoeff(&first) > limit) return {};
-  cost_of_turn_.assign(at(turns.count()), infinity);
-  costs_.resize(at(rows) * at(slots.size()));
+  cost_of_turn_.assign(static_cast<std::size_t>(turns.count()), infinity);
+  costs_.resize(points_.size() * static_cast<std::size_t>(slots.size()));
   assignment_.reset(rows, slots.size());
   double least = infinity;
   for (int step = 0; step < turns.count(); ++step) {
@@ -103,21 +99,21 @@ TurnedMatch RotationSearch::search(const Turns& turns, const AlignedSlots& slots
     if (glance_[turn] > limit) continue;
     if (!fill_costs(slots, turns.cosine(turn), turns.sine(turn), limit)) continue;
     if (assignment_.solve_similar(costs_, limit) != AssignmentStatus::optimal) continue;
-    cost_of_turn_[at(turn)] = assignment_.cost();
+    cost_of_turn_[static_cast<std::size_t>(turn)] = assignment_.cost();
     least = std::min(least, assignment_.cost());
     limit = std::min(limit, least + margin + cost_tie_m);
   }
   if (least == infinity) return {};
-  int winner = 0;
-  while (cost_of_turn_[at(winner)] > least + cost_tie_m) ++winner;
-  return {winner, cost_of_turn_[at(winner)]};
+  std::size_t winner = 0;
+  while (cost_of_turn_[winner] > least + cost_tie_m) ++winner;
+  return {static_cast<int>(winner), cost_of_turn_[winner]};
 }
 
 void RotationSearch::match(const Turns& turns, const AlignedSlots& slots, int turn) {
   const double cosine = turns.cosine(turn);
   const double sine = turns.sine(turn);
   const Eigen::Index columns = slots.size();
-  costs_.resize(own_order_.size() * at(slots.size()));
+  costs_.resize(own_order_.size() * static_cast<std::size_t>(slots.size()));
   double* row = costs_.data();
   for (const Eigen::Vector2d& p : own_order_) {
     const double x = cosine * p.x() - sine * p.y();

@@ -6,6 +6,7 @@
 
 #include "shoal/core/angles.hpp"
 #include "shoal/solvers/matching/matching.hpp"
+#include "shoal/solvers/matching/points.hpp"
 #include "shoal/solvers/matching/rotation_search.hpp"
 #include "shoal/solvers/matching/slot_subsets.hpp"
 
@@ -72,10 +73,6 @@ struct Workspace {
   int last_turn = 0;
 };
 
-bool finite(std::span<const Eigen::Vector2d> points) {
-  return std::ranges::all_of(points, [](const Eigen::Vector2d& p) { return p.allFinite(); });
-}
-
 /// Tries every slot as seed of the part of the plan that is seen, and every rotation by a multiple
 /// of delta theta; the cheapest assignment wins (Rypkema 2015, sec. 3.7, Alg. 8).
 class Sampled final : public Matcher {
@@ -89,7 +86,7 @@ class Sampled final : public Matcher {
     if (problem.points.empty() || problem.points.size() > problem.slots.size() ||
         !(problem.delta_theta_deg > 0.0 && problem.delta_theta_deg <= 360.0) ||
         !std::isfinite(problem.ownship_weight) || problem.ownship_weight < 0.0 || !(weight > 0.0) ||
-        !finite(problem.points) || !finite(problem.slots)) {
+        !all_finite(problem.points) || !all_finite(problem.slots)) {
       return {};
     }
     thread_local Workspace work;

@@ -14,7 +14,7 @@ namespace {
 constexpr double same_place_ratio = 1e-12;
 constexpr double same_ratio = 1e-9;
 constexpr double parallel = 1e-3;  // sine of the angle between two vectors
-constexpr double most_cells = 1e6;
+constexpr double farthest_cell = 1e6;
 
 bool permuted(std::span<const Eigen::Vector2d> slots, double angle, double same_m) {
   const Transform2 turn = Transform2::from_angle(angle, Eigen::Vector2d::Zero());
@@ -75,7 +75,7 @@ std::optional<SlotLattice> SlotLattice::of(std::span<const Eigen::Vector2d> slot
   const Eigen::Matrix2d to_cells = basis.inverse();
   for (const Eigen::Vector2d& slot : slots) {
     const Eigen::Array2d cells = to_cells * (slot - slots[0]);
-    if ((cells.abs() > most_cells).any() || ((cells - cells.round()).abs() > same_ratio).any()) {
+    if ((cells.abs() > farthest_cell).any() || ((cells - cells.round()).abs() > same_ratio).any()) {
       return std::nullopt;
     }
   }

@@ -5,12 +5,10 @@
 
 #include "shoal/core/angles.hpp"
 #include "shoal/core/transform.hpp"
+#include "shoal/solvers/matching/points.hpp"
 
 namespace shoal::solvers {
 namespace {
-
-// Far below cost_tie_m, even summed over a swarm; far above the rounding of coordinates.
-constexpr double same_place_m = 1e-9;
 
 bool coincide(const AlignedSlots& a, const AlignedSlots& b, double angle) {
   const Transform2 turned = Transform2::from_angle(angle, Eigen::Vector2d::Zero());

@@ -9,7 +9,6 @@
 namespace shoal::solvers {
 namespace {
 
-constexpr int n_max = Problem::max_dimension;
 using Vector = Problem::Vector;
 
 }  // namespace
@@ -94,7 +93,8 @@ bool Attempt::reduced(const Function& function, const double* y, double& value, 
   if (all_free_) {
     value = function(y, gradient, hessian);
   } else {
-    double slope[n_max], curvature[n_max * n_max];
+    double slope[Problem::max_dimension],
+        curvature[Problem::max_dimension * Problem::max_dimension];
     const int n = problem_.dimension();
     value = function(place(y), gradient ? slope : nullptr, hessian ? curvature : nullptr);
     for (int k = 0; gradient && k < free_count_; ++k) gradient[k] = slope[free_[k]];
@@ -155,7 +155,7 @@ Attempt::Outcome Attempt::residuals(int block, const double* y, double* values, 
     const LeastSquares& structure = *problem_.least_squares;
     const int m = structure.residuals->block_size(), n = problem_.dimension();
     const double* x = place(y);
-    double whole[m_max * n_max];
+    double whole[m_max * Problem::max_dimension];
     structure.residuals->evaluate(block, x, values, jacobian ? whole : nullptr, nullptr);
     double squared = 0.0;
     bool finite = true;

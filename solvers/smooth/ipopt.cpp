@@ -21,8 +21,6 @@ std::recursive_mutex& mumps() {
   return mutex;
 }
 
-constexpr int n_max = Problem::max_dimension;
-
 class Posed final : public Ipopt::TNLP {
  public:
   Posed(Attempt& attempt, double x_tolerance_m)
@@ -110,10 +108,11 @@ class Posed final : public Ipopt::TNLP {
       return true;
     }
     if (!at(y, is_new)) return false;
-    double sum[n_max * n_max];
+    double sum[Problem::max_dimension * Problem::max_dimension];
     for (int i = 0; i < n_ * n_; ++i) sum[i] = cost_factor * curvature_[i];
     for (Index k = 0; k < m; ++k) {
-      double value = 0.0, gradient[n_max], hessian[n_max * n_max];
+      double value = 0.0, gradient[Problem::max_dimension],
+             hessian[Problem::max_dimension * Problem::max_dimension];
       if (attempt_.constrain(k, y, value, gradient, hessian) != Attempt::Outcome::fine) {
         return false;
       }
@@ -153,7 +152,8 @@ class Posed final : public Ipopt::TNLP {
   double tolerance_;
   int n_;
   bool known_ = false;
-  double cost_ = 0.0, slope_[n_max] = {}, curvature_[n_max * n_max] = {};
+  double cost_ = 0.0, slope_[Problem::max_dimension] = {},
+         curvature_[Problem::max_dimension * Problem::max_dimension] = {};
 };
 
 class InteriorPoint final : public Solver {

@@ -12,10 +12,10 @@ namespace shoal::solvers {
 namespace {
 
 constexpr double slack = 10.0;  // the backends bound their last step, not the error
-constexpr int n_max = Problem::max_dimension;
 using Vector = Problem::Vector;
-using Matrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, n_max, n_max>;
-using Columns = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, n_max>;
+using Matrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, Problem::max_dimension,
+                             Problem::max_dimension>;
+using Columns = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, Problem::max_dimension>;
 
 /// What holds x back: bounds it lies on and constraints that are about zero.
 struct Obstacles {
