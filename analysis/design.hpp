@@ -7,6 +7,9 @@
 
 namespace shoal::analysis {
 
+/// A matrix of that many cells still fits into memory; more trials than that are a mistake.
+inline constexpr double most_cells = 1e7;
+
 /// How the cells of a study are chosen from its factors.
 class Design {
  public:

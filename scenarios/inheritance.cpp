@@ -29,7 +29,7 @@ fs::path shipped_file(const std::string& name, const Origin& origin) {
 fs::path file_of(const Setting& named) {
   const auto& text = std::get<std::string>(named.value);
   if (!names_a_file(text)) return shipped_file(text, named.origin);
-  return resolved(detail::as_file({.type = "a file"}, named, inherits_key));
+  return resolved(shoal::detail::as_file({.type = "a file"}, named, inherits_key));
 }
 
 /// Puts `value` beneath: of two tables, the names that `place` lacks, at any depth.

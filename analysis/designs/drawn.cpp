@@ -3,16 +3,10 @@
 #include <bit>
 #include <boost/random/sobol.hpp>
 
+#include "shoal/analysis/design.hpp"
 #include "shoal/core/random.hpp"
 
 namespace shoal::analysis {
-namespace {
-
-// A matrix of that many cells still fits into memory; more trials than that are a mistake.
-constexpr double most_cells = 1e7;
-
-}  // namespace
-
 void require_drawable(std::span<const int> levels, double cells, const Origin& origin) {
   if (levels.empty()) {
     throw InputError(origin, "a design that draws its cells needs a factor; add [[factor]]");

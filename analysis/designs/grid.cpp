@@ -3,9 +3,6 @@
 namespace shoal::analysis {
 namespace {
 
-// A matrix of that many cells still fits into memory; more trials than that are a mistake.
-constexpr double most_cells = 1e7;
-
 /// Every combination of levels, the last factor running fastest. Without factors, one cell.
 struct Grid final : Design {
   Origin origin;

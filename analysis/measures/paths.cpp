@@ -6,8 +6,6 @@
 namespace shoal::analysis {
 namespace {
 
-// Half the drifting radius of Rypkema 2015, Table 3.1: what is less is keeping a place.
-constexpr double step_m = 10.0;
 // A vehicle is at its end once it is that near: the drifting radius and half of it.
 constexpr double arrived_m = 30.0;
 
@@ -49,7 +47,7 @@ class Paths final : public Measure {
       length += length_m(track);
       distance += (track.back() - track.front()).norm();
       away += away_m(track);
-      arcs += away_m(track) >= step_m ? 1.0 : 0.0;
+      arcs += away_m(track) >= path_step_m ? 1.0 : 0.0;
       approaches.push_back(approach(track, arrived_m));
       if (approaches.back().size() < 2) continue;
       ++under_way;
@@ -70,7 +68,7 @@ class Paths final : public Measure {
   }
 
  private:
-  TrackLog log_{step_m};
+  TrackLog log_{path_step_m};
 };
 
 const Enrol<Measure, Paths> enrolled{"paths", "how long and straight ways are, and do they cross"};

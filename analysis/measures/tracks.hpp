@@ -12,6 +12,9 @@ namespace shoal::analysis {
 /// Places of one vehicle in the order in which it came to them, m.
 using Track = std::vector<Eigen::Vector2d>;
 
+/// Half the drifting radius of Rypkema 2015, Table 3.1: what is less is keeping a place.
+inline constexpr double path_step_m = 10.0;
+
 /// Tracks of all vehicles, in steps of a length and more: what is smaller than a step is no path.
 class TrackLog {
  public:

@@ -7,7 +7,6 @@
 namespace shoal::analysis {
 namespace {
 
-constexpr double step_m = 10.0;           // half the drifting radius of Rypkema 2015, Table 3.1
 constexpr double still_water_m_s = 0.02;  // a fifth of the weakest current of his scenarios
 
 /// How jagged tracks are (Rypkema 2015, sec. 5.2.1, 5.3.1): by how much they turn from one step of
@@ -54,7 +53,7 @@ class Turning final : public Measure {
     }
   };
 
-  TrackLog log_{step_m};
+  TrackLog log_{path_step_m};
   std::array<Sum, 2> sums_;
 };
 

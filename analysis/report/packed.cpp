@@ -14,7 +14,7 @@ using Json = nlohmann::ordered_json;
 
 constexpr std::uint16_t no_level = 65535;
 constexpr std::int16_t ended = std::numeric_limits<std::int16_t>::min();
-constexpr double most_steps = 32000.0;
+constexpr double most_units = 32000.0;
 
 std::string base64(std::span<const std::uint8_t> bytes) {
   static constexpr char digits[] =
@@ -93,7 +93,7 @@ Json packed_steps(std::span<const double> numbers, std::size_t rows) {
       if (std::isfinite(step)) farthest = std::max(farthest, step);
     }
   }
-  const double unit = std::max(0.01, farthest / most_steps);
+  const double unit = std::max(0.01, farthest / most_units);
 
   Json first = Json::array();
   std::vector<std::uint16_t> words;

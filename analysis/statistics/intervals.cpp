@@ -15,7 +15,7 @@ namespace shoal::analysis::statistics {
 namespace {
 
 // Statistics that are closer than this, relative to the largest, differ by rounding only.
-constexpr double rounding = 1e-12;
+constexpr double same_statistic = 1e-12;
 
 double tail_outside(double level) {
   if (!(level > 0.0 && level < 1.0)) {
@@ -51,7 +51,7 @@ std::optional<double> bias_correction(const std::vector<double>& replicates, dou
   double below = 0.0;
   for (const double replicate : replicates) {
     const double excess = replicate - estimate;
-    if (std::abs(excess) <= rounding * largest) {
+    if (std::abs(excess) <= same_statistic * largest) {
       below += 0.5;
     } else if (excess < 0.0) {
       below += 1.0;

@@ -12,7 +12,7 @@
 namespace shoal::analysis::statistics {
 namespace {
 
-constexpr int simulated = 1999;
+constexpr int null_samples = 1999;
 constexpr std::size_t largest_simulated = 1000;
 
 std::vector<double> ordered(Sample values) {
@@ -111,16 +111,16 @@ const std::vector<double>& simulated_values(std::size_t n, const Of& of) {
   const std::scoped_lock lock(guard);
   std::vector<double>& values = known[n];
   if (values.empty()) {
-    for (std::uint32_t k = 0; k < simulated; ++k) values.push_back(of(k));
+    for (std::uint32_t k = 0; k < null_samples; ++k) values.push_back(of(k));
     std::ranges::sort(values);
   }
   return values;
 }
 
-double share_at_least(double value, const std::vector<double>& null) {
+double p_value_among(double value, const std::vector<double>& null) {
   // Equal up to rounding is as large.
   const auto first = std::ranges::lower_bound(null, value * (1.0 - 1e-12));
-  return (1.0 + static_cast<double>(null.end() - first)) / (simulated + 1.0);
+  return (1.0 + static_cast<double>(null.end() - first)) / (null_samples + 1.0);
 }
 
 template <class Draw>
@@ -156,7 +156,7 @@ std::optional<double> dip_p_value(Sample values) {
   const std::size_t n = std::min(values.size(), largest_simulated);
   const double as_of_n = std::sqrt(static_cast<double>(values.size()) / static_cast<double>(n));
   const RandomStreams random(1985);
-  return share_at_least(
+  return p_value_among(
       2.0 * static_cast<double>(n) * *found * as_of_n, simulated_values(n, [&](std::uint32_t k) {
         return doubled_dip(ordered(
             drawn(n, [&](std::uint64_t i) { return random.uniform(Purpose::bootstrap, k, i); })));
@@ -174,11 +174,11 @@ std::optional<double> skewness_p_value(Sample values) {
   const std::size_t n = std::min(values.size(), largest_simulated);
   const double as_of_n = std::sqrt(static_cast<double>(values.size()) / static_cast<double>(n));
   const RandomStreams random(1930);
-  return share_at_least(std::abs(*found) * as_of_n, simulated_values(n, [&](std::uint32_t k) {
-                          return std::abs(g1(drawn(n, [&](std::uint64_t i) {
-                            return random.normal(Purpose::bootstrap, k, i);
-                          })));
-                        }));
+  return p_value_among(std::abs(*found) * as_of_n, simulated_values(n, [&](std::uint32_t k) {
+                         return std::abs(g1(drawn(n, [&](std::uint64_t i) {
+                           return random.normal(Purpose::bootstrap, k, i);
+                         })));
+                       }));
 }
 
 std::optional<TwoGroups> two_groups(Sample values) {

@@ -13,11 +13,11 @@
 namespace shoal::analysis::statistics {
 namespace {
 
-constexpr std::size_t exact_up_to = 32;  // 2 x 65536 sums: no dearer than sampling
+constexpr std::size_t most_exact_terms = 32;  // 2 x 65536 sums: no dearer than sampling
 
 // Sums that are closer than this, relative to the sum of all magnitudes, differ only by the
 // rounding of the sums; that of the differences comes on top.
-constexpr double rounding = 1e-12;
+constexpr double rounding_of_signed_sums = 1e-12;
 
 /// The sums under all patterns of signs, ascending.
 std::vector<double> signed_sums(Sample terms) {
@@ -105,7 +105,7 @@ class RandomSums {
 }  // namespace
 
 double least_p_value(PairedTest test, int n) {
-  const bool exact = static_cast<std::size_t>(n) <= exact_up_to;
+  const bool exact = static_cast<std::size_t>(n) <= most_exact_terms;
   switch (test) {
     case PairedTest::sign_flip:
       return exact ? std::ldexp(1.0, 1 - n) : 1.0 / (SignFlipOptions{}.resamples + 1.0);
@@ -129,12 +129,12 @@ std::optional<TestResult> sign_flip_test(const Differences& given, Alternative a
   if (differences.empty()) return std::nullopt;
 
   const double observed = std::accumulate(differences.begin(), differences.end(), 0.0);
-  const double tie =
-      part * given.rounding() * static_cast<double>(differences.size()) +
-      rounding * std::accumulate(differences.begin(), differences.end(), 0.0,
-                                 [](double sum, double x) { return sum + std::abs(x); });
+  const double tie = part * given.rounding() * static_cast<double>(differences.size()) +
+                     rounding_of_signed_sums *
+                         std::accumulate(differences.begin(), differences.end(), 0.0,
+                                         [](double sum, double x) { return sum + std::abs(x); });
   TestResult result{.statistic = mean(given.values()), .n = static_cast<int>(differences.size())};
-  result.exact = differences.size() <= exact_up_to;
+  result.exact = differences.size() <= most_exact_terms;
 
   // A pattern and its opposite are equally likely, so all three alternatives are one upper tail.
   const bool two_sided = alternative == Alternative::two_sided;

@@ -11,7 +11,7 @@
 namespace shoal::analysis::statistics {
 namespace {
 
-constexpr std::size_t exact_up_to = 100;  // a million additions
+constexpr std::size_t most_exact_ranks = 100;  // a million additions
 
 /// Twice the sum of the ranks, of all and of positive differences.
 struct RankSums {
@@ -91,7 +91,7 @@ std::optional<TestResult> signed_rank_test(const Differences& differences,
                                            Alternative alternative) {
   const std::vector<SignedRank> ranks = signed_ranks(differences);
   if (ranks.empty()) return std::nullopt;
-  const bool exact = ranks.size() <= exact_up_to;
+  const bool exact = ranks.size() <= most_exact_ranks;
   return TestResult{
       .statistic = rank_sums(ranks).positive / 2.0,
       .p_value = exact ? exact_p_value(ranks, alternative) : normal_p_value(ranks, alternative),

@@ -9,8 +9,6 @@
 namespace shoal::analysis {
 namespace {
 
-constexpr double level = 1.0 - confidence;
-
 /// Replications that would show the mean of some numbers to be above 0 (or below).
 std::optional<int> needed(const std::vector<double>& numbers, double alpha) {
   if (numbers.size() < 2 || !statistics::standard_error(numbers)) return std::nullopt;
@@ -39,25 +37,25 @@ bool ClaimResult::inferred() const {
 }
 
 Verdict ClaimResult::verdict() const {
-  if (p_holds * correction < level) return Verdict::reproduced;
-  return p_fails * correction < level ? Verdict::contradicted : Verdict::undecided;
+  if (p_holds * correction < significance) return Verdict::reproduced;
+  return p_fails * correction < significance ? Verdict::contradicted : Verdict::undecided;
 }
 
 Verdict ClaimResult::verdict_of(const Contrast& contrast) const {
   const auto number = static_cast<double>(contrasts.size());
-  if (contrast.p_holds.value_or(1.0) * correction < level) return Verdict::reproduced;
-  return contrast.p_fails.value_or(1.0) * number * correction < level ? Verdict::contradicted
-                                                                      : Verdict::undecided;
+  if (contrast.p_holds.value_or(1.0) * correction < significance) return Verdict::reproduced;
+  return contrast.p_fails.value_or(1.0) * number * correction < significance ? Verdict::contradicted
+                                                                             : Verdict::undecided;
 }
 
 bool ClaimResult::corrected_away() const {
-  return verdict() == Verdict::undecided && std::min(p_holds, p_fails) < level;
+  return verdict() == Verdict::undecided && std::min(p_holds, p_fails) < significance;
 }
 
 std::optional<int> ClaimResult::replications_needed() const {
   if (verdict() != Verdict::undecided) return std::nullopt;
   // It takes one contrast to contradict, and all to reproduce.
-  const double alpha = level / correction;
+  const double alpha = significance / correction;
   const double alpha_of_one = alpha / static_cast<double>(contrasts.size());
   std::optional<int> to_fail;
   int to_hold = 0;

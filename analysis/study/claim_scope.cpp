@@ -11,10 +11,6 @@
 namespace shoal::analysis {
 namespace {
 
-bool contains(const std::vector<std::string>& names, const std::string& name) {
-  return std::ranges::find(names, name) != names.end();
-}
-
 std::vector<std::size_t> groups_of(const TestedStatement& asked, const StudyPlan& plan) {
   if (asked.groups.empty() && plan.groups().size() > 1) {
     throw InputError(asked.origin, "the study has several groups; say which the claim is about");

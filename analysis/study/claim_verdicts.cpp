@@ -14,8 +14,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr double level = 1.0 - confidence;
-
 /// `where`, with one level of a factor; as it is, for no factor.
 Setting at_level(Setting where, const std::string& factor, const std::string& label) {
   if (!factor.empty()) where.at_or_new(factor).value = label;
@@ -71,7 +69,7 @@ int correct(std::vector<JudgedClaim>& claims, Correction correction) {
     family[i]->corrected_p = corrected[i];
     // The contrasts of an undecided claim are held against the strictest level of the family.
     const double factor = p_values[i] > 0.0 ? corrected[i] / p_values[i] : 1.0;
-    family[i]->result.correction = corrected[i] < level ? factor : std::max(all, factor);
+    family[i]->result.correction = corrected[i] < significance ? factor : std::max(all, factor);
   }
   return static_cast<int>(family.size());
 }

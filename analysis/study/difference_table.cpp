@@ -25,7 +25,7 @@ namespace {
 constexpr int most_replications = 10000;
 constexpr double alpha = 1.0 - confidence;
 
-Cell number(const std::optional<double>& value, Digits digits) {
+Cell number_or_missing(const std::optional<double>& value, Digits digits) {
   if (!value) return Missing{};
   return Estimate{.value = *value, .digits = digits};
 }
@@ -73,10 +73,11 @@ class DifferenceTable {
                  other);
     if (times_) add_log_ranks(table);
     add(table, {.header = "effect", .name = "hedges_g_z"}, [&](const Compared& row) {
-      return number(statistics::hedges_g_z(row.differences), Digits::decimals(2));
+      return number_or_missing(statistics::hedges_g_z(row.differences), Digits::decimals(2));
     });
     add(table, {.header = "rank", .name = "rank_biserial"}, [&](const Compared& row) {
-      return number(statistics::rank_biserial_correlation(row.differences), Digits::decimals(2));
+      return number_or_missing(statistics::rank_biserial_correlation(row.differences),
+                               Digits::decimals(2));
     });
     add_needed(table, {.header = "needed", .name = "replications_needed"}, test);
     add_needed(table,

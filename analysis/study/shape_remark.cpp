@@ -7,7 +7,7 @@
 namespace shoal::analysis {
 namespace {
 
-constexpr double level = 0.01;
+constexpr double shape_level = 0.01;
 constexpr double apart =
     0.9;  // of a normal sample, two groups explain 0.64; of a uniform one, 0.75
 
@@ -22,8 +22,8 @@ std::string groups_text(const statistics::TwoGroups& groups) {
 std::optional<std::string> remark_on_shape(const std::vector<double>& values) {
   const std::optional<double> of_dip = statistics::dip_p_value(values);
   const std::optional<double> of_skewness = statistics::skewness_p_value(values);
-  const bool two_modes = of_dip && *of_dip <= level;
-  const bool skewed = of_skewness && *of_skewness <= level;
+  const bool two_modes = of_dip && *of_dip <= shape_level;
+  const bool skewed = of_skewness && *of_skewness <= shape_level;
   if (!two_modes && !skewed) return std::nullopt;
   const std::optional<statistics::TwoGroups> groups = statistics::two_groups(values);
   if (!groups) return std::nullopt;

@@ -10,10 +10,6 @@
 namespace shoal::analysis {
 namespace {
 
-bool contains(const std::vector<std::string>& names, const std::string& name) {
-  return std::ranges::find(names, name) != names.end();
-}
-
 std::size_t place_of(const std::vector<std::string>& labels, const std::string& label) {
   return static_cast<std::size_t>(std::ranges::find(labels, label) - labels.begin());
 }
@@ -81,6 +77,10 @@ Selected selected(const StudyPlan& plan, const Scope& scope) {
 }
 
 }  // namespace
+
+bool contains(const std::vector<std::string>& names, const std::string& name) {
+  return std::ranges::find(names, name) != names.end();
+}
 
 std::vector<std::size_t> places_of_groups(const std::vector<std::string>& names,
                                           const StudyPlan& plan, const Origin& origin) {

@@ -16,6 +16,8 @@ namespace shoal::analysis {
 /// The column that tells the groups of a study apart, where a table shows several.
 inline constexpr const char* group_column = "group";
 
+bool contains(const std::vector<std::string>& names, const std::string& name);
+
 /// Something by which the trials of a table differ: a factor, or the group.
 struct Dimension {
   std::string name;

@@ -30,7 +30,7 @@ constexpr const char* schema = R"(
 )";
 constexpr int schema_version = 2;
 
-std::string quoted(const std::string& name) {
+std::string quoted_name(const std::string& name) {
   std::string text = "\"";
   for (const char c : name) text += c == '"' ? std::string("\"\"") : std::string(1, c);
   return text + '"';
@@ -83,7 +83,7 @@ std::vector<std::string> column_list(sqlite3* connection, const std::string& lis
 }
 
 std::string factor_column(const std::string& name) {
-  return quoted("f:" + name);
+  return quoted_name("f:" + name);
 }
 
 }  // namespace
@@ -97,8 +97,8 @@ void Store::Database::add_columns(const std::string& list, std::vector<std::stri
                                   const std::vector<std::string>& wanted, const std::string& type) {
   for (const std::string& name : wanted) {
     if (std::ranges::find(known, name) != known.end()) continue;
-    run("ALTER TABLE trial ADD COLUMN " + (list == "factor" ? factor_column(name) : quoted(name)) +
-        " " + type);
+    run("ALTER TABLE trial ADD COLUMN " +
+        (list == "factor" ? factor_column(name) : quoted_name(name)) + " " + type);
     Statement entry(connection, "INSERT INTO " + list + " VALUES (?, ?)");
     entry.bind(1, name);
     entry.bind(2, static_cast<std::int64_t>(known.size()));
@@ -172,7 +172,7 @@ void Store::Database::put(const StoredTrial& trial) {
   std::string places = "?, ?, ?, ?, ?, ?, ?, ?, ?, ?";
   for (const std::string& name : factor_names)
     columns += ", " + factor_column(name), places += ", ?";
-  for (const std::string& name : metric_names) columns += ", " + quoted(name), places += ", ?";
+  for (const std::string& name : metric_names) columns += ", " + quoted_name(name), places += ", ?";
   Statement& row = insert.ready(
       connection, "INSERT OR REPLACE INTO trial (" + columns + ") VALUES (" + places + ")");
   row.bind(1, trial.key);
@@ -254,7 +254,7 @@ std::string Store::Database::selecting(const std::vector<std::string>& names,
   for (const std::string& name : factors) columns += ", " + factor_column(name);
   for (const std::string& name : names) {
     const bool known = std::ranges::find(metrics, name) != metrics.end();
-    columns += known ? ", " + quoted(name) : std::string(", NULL");
+    columns += known ? ", " + quoted_name(name) : std::string(", NULL");
   }
   return "SELECT " + columns + " FROM trial" + condition;
 }

@@ -3,7 +3,7 @@
 namespace shoal::analysis {
 namespace {
 
-std::string escaped(const std::string& text) {
+std::string escaped_html(const std::string& text) {
   std::string out;
   for (const char c : text) {
     switch (c) {
@@ -26,8 +26,8 @@ std::string escaped(const std::string& text) {
   return out;
 }
 
-std::string cell_text(const Cell& cell, const LaidCell& laid, ColumnKind kind) {
-  if (const auto* text = std::get_if<std::string>(&cell)) return escaped(*text);
+std::string html_cell(const Cell& cell, const LaidCell& laid, ColumnKind kind) {
+  if (const auto* text = std::get_if<std::string>(&cell)) return escaped_html(*text);
   if (laid.numbers.empty()) return "–" + superscript(laid.mark);
   return estimate_text(laid, kind, "<strong>", "</strong>") + superscript(laid.mark);
 }
@@ -44,7 +44,7 @@ std::string group_row(const Table& table, const Layout& layout) {
   for (const Span& span : layout.spans) {
     for (; at < span.first; ++at) row += "<td></td>";
     row += "<th scope=\"colgroup\" colspan=\"" + std::to_string(span.count) + "\">" +
-           escaped(with_unit(span.header, span.unit)) + "</th>";
+           escaped_html(with_unit(span.header, span.unit)) + "</th>";
     at += span.count;
   }
   for (; at < table.columns.size(); ++at) row += "<td></td>";
@@ -55,19 +55,19 @@ std::string group_row(const Table& table, const Layout& layout) {
 
 std::string as_html(const Table& table) {
   const Layout layout(table);
-  std::string printed = "<figure class=\"table\" id=\"tab:" + escaped(table.name) +
-                        "\">\n<table>\n<caption>" + escaped(table.caption) +
+  std::string printed = "<figure class=\"table\" id=\"tab:" + escaped_html(table.name) +
+                        "\">\n<table>\n<caption>" + escaped_html(table.caption) +
                         "</caption>\n<thead>\n" + group_row(table, layout) + "<tr>";
   for (std::size_t c = 0; c < table.columns.size(); ++c) {
     printed += "<th scope=\"col\"" + class_of(layout.columns[c]) + ">" +
-               escaped(with_unit(table.columns[c].header, table.columns[c].unit)) + "</th>";
+               escaped_html(with_unit(table.columns[c].header, table.columns[c].unit)) + "</th>";
   }
   printed += "</tr>\n</thead>\n<tbody>\n";
   for (std::size_t r = 0; r < table.rows.size(); ++r) {
     printed += "<tr>";
     for (std::size_t c = 0; c < table.columns.size(); ++c) {
       printed += "<td" + class_of(layout.columns[c]) + ">" +
-                 cell_text(table.rows[r][c], layout.rows[r][c], layout.columns[c].kind) + "</td>";
+                 html_cell(table.rows[r][c], layout.rows[r][c], layout.columns[c].kind) + "</td>";
     }
     printed += "</tr>\n";
   }
@@ -75,7 +75,7 @@ std::string as_html(const Table& table) {
   if (!layout.notes.empty()) {
     printed += "<figcaption>";
     for (const Note& note : layout.notes) {
-      printed += "<p>" + superscript(note.mark) + escaped(note.text) + "</p>";
+      printed += "<p>" + superscript(note.mark) + escaped_html(note.text) + "</p>";
     }
     printed += "</figcaption>\n";
   }

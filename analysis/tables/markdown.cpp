@@ -11,7 +11,7 @@ bool alphanumeric(const std::string& text, std::size_t i) {
 
 /// What GitHub would take for markup. An underscore within a word is none (GitHub Flavored
 /// Markdown, sec. 6.2).
-std::string escaped(const std::string& text) {
+std::string escaped_markdown(const std::string& text) {
   std::string out;
   for (std::size_t i = 0; i < text.size(); ++i) {
     const bool within_word = i > 0 && alphanumeric(text, i - 1) && alphanumeric(text, i + 1);
@@ -23,17 +23,17 @@ std::string escaped(const std::string& text) {
   return on_one_line(out);
 }
 
-std::string cell_text(const Cell& cell, const LaidCell& laid, ColumnKind kind) {
-  if (const auto* text = std::get_if<std::string>(&cell)) return escaped(*text);
+std::string markdown_cell(const Cell& cell, const LaidCell& laid, ColumnKind kind) {
+  if (const auto* text = std::get_if<std::string>(&cell)) return escaped_markdown(*text);
   if (laid.numbers.empty()) return "–" + superscript(laid.mark);
   return estimate_text(laid, kind, "**", "**") + superscript(laid.mark);
 }
 
 /// Pipe tables have one line of headers: the group's comes first.
 std::string header_text(const Column& column) {
-  const std::string own = escaped(with_unit(column.header, column.unit));
+  const std::string own = escaped_markdown(with_unit(column.header, column.unit));
   if (column.group.empty()) return own;
-  return escaped(with_unit(column.group, column.group_unit)) + ": " + own;
+  return escaped_markdown(with_unit(column.group, column.group_unit)) + ": " + own;
 }
 
 }  // namespace
@@ -41,7 +41,7 @@ std::string header_text(const Column& column) {
 std::string as_markdown(const Table& table) {
   const Layout layout(table);
   std::string printed, rule = "|";
-  if (!table.caption.empty()) printed += escaped(table.caption) + "\n\n";
+  if (!table.caption.empty()) printed += escaped_markdown(table.caption) + "\n\n";
   printed += "|";
   for (std::size_t c = 0; c < table.columns.size(); ++c) {
     printed += " " + header_text(table.columns[c]) + " |";
@@ -52,7 +52,7 @@ std::string as_markdown(const Table& table) {
     printed += "|";
     for (std::size_t c = 0; c < table.columns.size(); ++c) {
       printed +=
-          " " + cell_text(table.rows[r][c], layout.rows[r][c], layout.columns[c].kind) + " |";
+          " " + markdown_cell(table.rows[r][c], layout.rows[r][c], layout.columns[c].kind) + " |";
     }
     printed += "\n";
   }
@@ -60,7 +60,7 @@ std::string as_markdown(const Table& table) {
   for (const Note& note : layout.notes) {
     if (!marks) printed += "\n";
     marks = !note.mark.empty();
-    printed += superscript(note.mark) + (marks ? " " : "") + escaped(note.text) + "\n";
+    printed += superscript(note.mark) + (marks ? " " : "") + escaped_markdown(note.text) + "\n";
   }
   return printed;
 }

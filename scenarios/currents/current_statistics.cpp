@@ -15,7 +15,7 @@ using Eigen::Vector2d;
 
 constexpr double shear_distance_m = 300.0;
 // Of the square of the velocities: below this they all are the same.
-constexpr double rounding = 1e-12;
+constexpr double same_velocity = 1e-12;
 
 Index whole(double length, double step, const char* what) {
   const double steps = std::round(length / step);
@@ -115,7 +115,7 @@ std::vector<CurrentStatistic> current_statistics(const Current& current,
   v -= mean.y();
   const Vector2d variance(u.square().mean(), v.square().mean());
   std::optional<double> length_m, time_s;
-  if (variance.sum() > rounding * mean.squaredNorm()) {
+  if (variance.sum() > same_velocity * mean.squaredNorm()) {
     length_m = falls_to_1_e(std::max(seen.columns, seen.rows), window.spacing_m, [&](Index lag) {
       const auto product = [](const auto& a, const auto& b) { return (a * b).sum(); };
       return mean_over_pairs(seen, lag, product) / variance.sum();

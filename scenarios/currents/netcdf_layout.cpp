@@ -12,7 +12,7 @@
 namespace shoal::scenarios {
 namespace {
 
-enum class Role { none, longitude, latitude, x, y, depth, time };
+enum class AxisRole { none, longitude, latitude, x, y, depth, time };
 
 bool is_one_of(const std::string& text, std::initializer_list<const char*> words) {
   return std::ranges::any_of(words, [&](const char* word) { return text == word; });
@@ -27,8 +27,8 @@ double length_unit_m(const std::string& units) {
 
 /// What a coordinate variable measures (CF-1.8, ch. 4): by its units where these are telling, else
 /// by standard name, axis and name.
-Role role_of(const NetcdfFile& file, const NetcdfVariable& variable) {
-  if (!variable.is_numeric) return Role::none;
+AxisRole role_of(const NetcdfFile& file, const NetcdfVariable& variable) {
+  if (!variable.is_numeric) return AxisRole::none;
   const std::string units = file.text(variable, "units");
   const std::string name = file.text(variable, "standard_name");
   const std::string axis = file.text(variable, "axis");
@@ -39,25 +39,25 @@ Role role_of(const NetcdfFile& file, const NetcdfVariable& variable) {
   if (is_one_of(units,
                 {"degrees_east", "degree_east", "degree_E", "degrees_E", "degreeE", "degreesE"}) ||
       (name == "longitude" && is_one_of(units, {"degrees", "degree"}))) {
-    return Role::longitude;
+    return AxisRole::longitude;
   }
   if (is_one_of(units, {"degrees_north", "degree_north", "degree_N", "degrees_N", "degreeN",
                         "degreesN"}) ||
       (name == "latitude" && is_one_of(units, {"degrees", "degree"}))) {
-    return Role::latitude;
+    return AxisRole::latitude;
   }
-  if (name == "time" || looks_like_time_units(units)) return Role::time;
+  if (name == "time" || looks_like_time_units(units)) return AxisRole::time;
   const bool vertical = axis == "Z" || !file.text(variable, "positive").empty() ||
                         is_one_of(name, {"depth", "height", "altitude"}) ||
                         is_one_of(variable.name, {"depth", "lev", "z"});
-  if (vertical) return Role::depth;
+  if (vertical) return AxisRole::depth;
   if (name == "projection_x_coordinate" || axis == "X" || is_one_of(variable.name, {"x", "X"})) {
-    return Role::x;
+    return AxisRole::x;
   }
   if (name == "projection_y_coordinate" || axis == "Y" || is_one_of(variable.name, {"y", "Y"})) {
-    return Role::y;
+    return AxisRole::y;
   }
-  return Role::none;
+  return AxisRole::none;
 }
 
 std::string dimensions_text(const NetcdfVariable& variable) {
@@ -75,7 +75,7 @@ const NetcdfVariable* coordinate_of(const NetcdfFile& file, const NetcdfDimensio
   for (const NetcdfVariable& variable : file.variables()) {
     if (variable.dimensions.size() != 1 || variable.dimensions[0] != dimension) continue;
     if (variable.name == dimension.name) return &variable;
-    if (role_of(file, variable) == Role::none) continue;
+    if (role_of(file, variable) == AxisRole::none) continue;
     if (found) {
       file.refuse("the dimension " + dimension.name + " could be measured by " + found->name +
                   " or " + variable.name + "; give it a coordinate variable of its own name");
@@ -187,46 +187,46 @@ void refuse_without_axes(const NetcdfFile& file, const CurrentLayout& layout) {
               "projected x/y axes, so regrid them first");
 }
 
-void take_axis(const NetcdfFile& file, const NetcdfVariable& variable, Role role,
+void take_axis(const NetcdfFile& file, const NetcdfVariable& variable, AxisRole role,
                std::optional<std::size_t> position, CurrentLayout& layout) {
   CoordinateAxis axis{variable.name, position.value_or(0), position.has_value(),
                       complete_values(file, variable)};
   switch (role) {
-    case Role::longitude:
-    case Role::x:
-      if (role == Role::x) {
+    case AxisRole::longitude:
+    case AxisRole::x:
+      if (role == AxisRole::x) {
         for (double& value : axis.values) value *= axis_unit_m(file, variable);
       }
-      layout.kind = role == Role::x ? AxisKind::projected : AxisKind::longitude_latitude;
+      layout.kind = role == AxisRole::x ? AxisKind::projected : AxisKind::longitude_latitude;
       layout.x = std::move(axis);
       break;
-    case Role::latitude:
-    case Role::y:
-      if (role == Role::y) {
+    case AxisRole::latitude:
+    case AxisRole::y:
+      if (role == AxisRole::y) {
         for (double& value : axis.values) value *= axis_unit_m(file, variable);
       }
       layout.y = std::move(axis);
       break;
-    case Role::depth:
+    case AxisRole::depth:
       read_depth(file, variable, axis);
       layout.depth = std::move(axis);
       break;
-    case Role::time:
+    case AxisRole::time:
       read_time(file, variable, axis, layout);
       layout.time = std::move(axis);
       break;
-    case Role::none:
+    case AxisRole::none:
       break;
   }
 }
 
 void read_axes(const NetcdfFile& file, CurrentLayout& layout) {
   const auto& dimensions = layout.u.dimensions;
-  std::vector<Role> roles;
+  std::vector<AxisRole> roles;
   for (std::size_t d = 0; d < dimensions.size(); ++d) {
     const NetcdfVariable* variable = coordinate_of(file, dimensions[d]);
-    const Role role = variable ? role_of(file, *variable) : Role::none;
-    if (role == Role::none) {
+    const AxisRole role = variable ? role_of(file, *variable) : AxisRole::none;
+    if (role == AxisRole::none) {
       file.refuse("the dimension " + dimensions[d].name + " of " + dimensions_text(layout.u) +
                   (variable ? " is neither time, depth nor a horizontal axis, by the units and "
                               "standard name of its coordinate variable"
@@ -240,12 +240,12 @@ void read_axes(const NetcdfFile& file, CurrentLayout& layout) {
   }
 
   const std::size_t last = roles.size() - 1;
-  const bool lon_lat = roles[last] == Role::longitude && roles[last - 1] == Role::latitude;
-  const bool projected = roles[last] == Role::x && roles[last - 1] == Role::y;
-  const std::vector<Role> above(roles.begin(), roles.end() - 2);
-  const bool ordered = above.empty() || above == std::vector{Role::time} ||
-                       above == std::vector{Role::depth} ||
-                       above == std::vector{Role::time, Role::depth};
+  const bool lon_lat = roles[last] == AxisRole::longitude && roles[last - 1] == AxisRole::latitude;
+  const bool projected = roles[last] == AxisRole::x && roles[last - 1] == AxisRole::y;
+  const std::vector<AxisRole> above(roles.begin(), roles.end() - 2);
+  const bool ordered = above.empty() || above == std::vector{AxisRole::time} ||
+                       above == std::vector{AxisRole::depth} ||
+                       above == std::vector{AxisRole::time, AxisRole::depth};
   if (!(lon_lat || projected) || !ordered) {
     file.refuse(dimensions_text(layout.u) +
                 " does not have its dimensions in the order time, depth, y, x; reorder them");
@@ -258,8 +258,8 @@ void read_scalar_coordinates(const NetcdfFile& file, CurrentLayout& layout) {
   for (const std::string_view name : split(coordinates, ' ')) {
     const NetcdfVariable* variable = file.find(name);
     if (!variable || !variable->dimensions.empty()) continue;
-    const Role role = role_of(file, *variable);
-    if ((role == Role::depth && !layout.depth) || (role == Role::time && !layout.time)) {
+    const AxisRole role = role_of(file, *variable);
+    if ((role == AxisRole::depth && !layout.depth) || (role == AxisRole::time && !layout.time)) {
       take_axis(file, *variable, role, std::nullopt, layout);
     }
   }
@@ -277,9 +277,9 @@ std::optional<NodePositions> node_positions(const NetcdfFile& file, const Curren
     const bool one = variable.dimensions.size() == 1 &&
                      (variable.dimensions[0] == along_x || variable.dimensions[0] == along_y);
     if (!full && !one) continue;
-    const Role role = role_of(file, variable);
-    if (role != Role::longitude && role != Role::latitude) continue;
-    auto& values = role == Role::longitude ? positions.longitude : positions.latitude;
+    const AxisRole role = role_of(file, variable);
+    if (role != AxisRole::longitude && role != AxisRole::latitude) continue;
+    auto& values = role == AxisRole::longitude ? positions.longitude : positions.latitude;
     if (!values.empty()) return std::nullopt;  // two of them: none is the obvious one
     values = complete_values(file, variable);
     if (full) continue;

@@ -24,15 +24,15 @@ bool holds_zero(const CoordinateAxis& axis) {
 }
 
 /// The options of the file's current, and how long the window can look at it.
-struct Placed {
+struct FileCurrent {
   Setting options;
   double duration_s = 0.0;
 };
 
-Placed placed(const std::filesystem::path& path, const DriftingWindow& window) {
+FileCurrent placed(const std::filesystem::path& path, const DriftingWindow& window) {
   const NetcdfFile file(path);
   const CurrentLayout layout = understand(file, "", "");
-  Placed placed{.duration_s = window.duration_s};
+  FileCurrent placed{.duration_s = window.duration_s};
   placed.options.at_or_new("file").value = path.string();
   if (layout.kind == AxisKind::longitude_latitude) {
     Setting point, origin;
@@ -60,7 +60,7 @@ Placed placed(const std::filesystem::path& path, const DriftingWindow& window) {
 std::vector<CurrentStatistic> current_file_statistics(const std::filesystem::path& path) {
   DriftingWindow window;
   // The file is closed again before its current reads it.
-  const Placed file = placed(path, window);
+  const FileCurrent file = placed(path, window);
   window.duration_s = file.duration_s;
   const auto current = Registry<Current>::instance().make("netcdf", file.options, "current.netcdf");
   return current_statistics(*current, window);

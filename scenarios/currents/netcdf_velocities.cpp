@@ -9,10 +9,10 @@
 namespace shoal::scenarios {
 namespace {
 
-enum class Role { none, u, v };
+enum class VelocityRole { none, u, v };
 
 struct Meaning {
-  Role role = Role::none;
+  VelocityRole role = VelocityRole::none;
   Components components = Components::east_north;
 };
 
@@ -26,18 +26,20 @@ Meaning meaning_of(std::string_view standard_name) {
       return std::ranges::any_of(names,
                                  [&](const char* name) { return standard_name == layer + name; });
     };
-    if (is({"eastward_sea_water_velocity"})) return {Role::u, Components::east_north};
-    if (is({"northward_sea_water_velocity"})) return {Role::v, Components::east_north};
+    if (is({"eastward_sea_water_velocity"})) return {VelocityRole::u, Components::east_north};
+    if (is({"northward_sea_water_velocity"})) return {VelocityRole::v, Components::east_north};
     if (is({"sea_water_x_velocity", "x_sea_water_velocity"})) {
-      return {Role::u, Components::grid_axes};
+      return {VelocityRole::u, Components::grid_axes};
     }
     if (is({"sea_water_y_velocity", "y_sea_water_velocity"})) {
-      return {Role::v, Components::grid_axes};
+      return {VelocityRole::v, Components::grid_axes};
     }
   }
   // Not in the CF table, but what ROMS writes.
-  if (standard_name == "sea_water_surface_x_velocity") return {Role::u, Components::grid_axes};
-  if (standard_name == "sea_water_surface_y_velocity") return {Role::v, Components::grid_axes};
+  if (standard_name == "sea_water_surface_x_velocity")
+    return {VelocityRole::u, Components::grid_axes};
+  if (standard_name == "sea_water_surface_y_velocity")
+    return {VelocityRole::v, Components::grid_axes};
   return {};
 }
 
@@ -57,13 +59,15 @@ const NetcdfVariable* required(const NetcdfFile& file, const std::string& name) 
 VelocityPair paired(const NetcdfFile& file, const NetcdfVariable* u, const NetcdfVariable* v) {
   const Meaning of_u = meaning_of(file.text(*u, "standard_name"));
   const Meaning of_v = meaning_of(file.text(*v, "standard_name"));
-  if (of_u.role == Role::v || of_v.role == Role::u) {
+  if (of_u.role == VelocityRole::v || of_v.role == VelocityRole::u) {
     file.refuse(u->name + " and " + v->name +
                 " are, by their standard names, the other way round; exchange u_variable and "
                 "v_variable");
   }
-  if (of_u.role == Role::none && of_v.role == Role::none) return {u, v, std::nullopt};
-  if (of_u.role == Role::none || of_v.role == Role::none || of_u.components != of_v.components) {
+  if (of_u.role == VelocityRole::none && of_v.role == VelocityRole::none)
+    return {u, v, std::nullopt};
+  if (of_u.role == VelocityRole::none || of_v.role == VelocityRole::none ||
+      of_u.components != of_v.components) {
     file.refuse(u->name + " and " + v->name +
                 " are, by their standard names, not two components of one velocity");
   }
@@ -80,8 +84,8 @@ VelocityPair find_velocities(const NetcdfFile& file, const std::string& u_name,
   for (const NetcdfVariable& variable : file.variables()) {
     if (!variable.is_numeric || variable.dimensions.size() < 2) continue;
     const Meaning meaning = meaning_of(file.text(variable, "standard_name"));
-    if (meaning.role == Role::u) u.push_back(&variable);
-    if (meaning.role == Role::v) v.push_back(&variable);
+    if (meaning.role == VelocityRole::u) u.push_back(&variable);
+    if (meaning.role == VelocityRole::v) v.push_back(&variable);
   }
   const std::string choose = "; choose with current.netcdf.u_variable and v_variable";
   if (u.size() > 1 || v.size() > 1) {
