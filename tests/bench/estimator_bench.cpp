@@ -3,17 +3,13 @@
 #include <benchmark/benchmark.h>
 
 #include "shoal/scenarios/estimators/vehicle_filter.hpp"
+#include "tests/bench/cruising.hpp"
 
 namespace {
 
 using namespace shoal::scenarios;
+using shoal::bench::cruising;
 constexpr double period_s = 0.5;
-
-VehicleState cruising() {
-  VehicleState x = VehicleState::Zero();
-  x.head<6>() << 1.4, 0.05, -0.02, 0.01, -0.01, 0.05;
-  return x;
-}
 
 template <class Process>
 void cycle(benchmark::State& state, const Process& process) {

@@ -7,16 +7,12 @@
 #include "shoal/scenarios/toml_file.hpp"
 #include "shoal/scenarios/vehicles/nps_auv/controllers.hpp"
 #include "shoal/scenarios/world.hpp"
+#include "tests/bench/cruising.hpp"
 
 namespace {
 
 using namespace shoal::scenarios;
-
-VehicleState cruising() {
-  VehicleState x = VehicleState::Zero();
-  x.head<6>() << 1.4, 0.05, -0.02, 0.01, -0.01, 0.05;
-  return x;
-}
+using shoal::bench::cruising;
 
 void nps_auv_derivative(benchmark::State& state) {
   const NpsAuvModel model;
