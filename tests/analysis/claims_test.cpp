@@ -33,7 +33,7 @@ struct Place {
 };
 using Gave = std::function<Metrics(const Place&)>;
 
-const char* const factors = R"(
+const char* const factors_of_a_group = R"(
 [[group.factor]]
 name = "settings"
 levels_of_settings
@@ -48,7 +48,7 @@ values = [10, 20, 30]
 )";
 
 std::string study_text(int replications) {
-  std::string of_group = factors;
+  std::string of_group = factors_of_a_group;
   const std::string word = "levels_of_settings";
   of_group.replace(of_group.find(word), word.size(),
                    "[[group.factor.level]]\nlabel = \"text\"\n[[group.factor.level]]\nlabel = "
@@ -111,21 +111,21 @@ class Claims : public testing::Test {
   fs::path folder_;
 };
 
-const std::vector<double> noise{0.3, -0.2, 0.5, -0.4, 0.1, -0.6, 0.2, 0.1};
+const std::vector<double> eight_noises{0.3, -0.2, 0.5, -0.4, 0.1, -0.6, 0.2, 0.1};
 
 double noise_of(int k) {
-  return noise[static_cast<std::size_t>(k) % noise.size()];
+  return eight_noises[static_cast<std::size_t>(k) % eight_noises.size()];
 }
 
-bool rigid(const Place& place) {
+bool is_rigid(const Place& place) {
   return place.label("behaviour") == "rigid_registration";
 }
 
-const std::string cells = "cells = { behaviour = \"rigid_registration\" }, ";
+const std::string of_rigid = "cells = { behaviour = \"rigid_registration\" }, ";
 const std::string than = "than = { behaviour = \"pairwise_referencing\" }, ";
 
 std::string lower(const std::string& smallest) {
-  return "{ kind = \"lower\", lower = { " + cells + than + smallest + " } }";
+  return "{ kind = \"lower\", lower = { " + of_rigid + than + smallest + " } }";
 }
 
 /// Student's two-sided p of numbers against a mean.
@@ -137,14 +137,15 @@ double t_p(const std::vector<double>& x, double mean) {
 
 TEST_F(Claims, AreReproducedOnlyBeyondTheSmallestEffectAndShowThePlainDifference) {
   // Rigid spends 2 Wh less, and their difference scatters.
-  const auto energy = [](const Place& p) { return rigid(p) ? 8.0 + noise_of(p.k) : 10.0; };
+  const auto energy = [](const Place& p) { return is_rigid(p) ? 8.0 + noise_of(p.k) : 10.0; };
   const ClaimResult met = judged_one(lower("smallest_effect = 1"), energy);
   EXPECT_EQ(met.verdict(), Verdict::reproduced);
   ASSERT_EQ(met.contrasts.size(), 1u);
   const Contrast& contrast = met.contrasts[0];
   EXPECT_NEAR(*contrast.estimate, -2.0, 1e-12);
   EXPECT_EQ(contrast.claimed, "below -1 Wh");
-  EXPECT_NEAR(*contrast.p_holds, t_p(noise, 1.0), 1e-12) << "noise against 1 Wh above its mean";
+  EXPECT_NEAR(*contrast.p_holds, t_p(eight_noises, 1.0), 1e-12)
+      << "noise against 1 Wh above its mean";
   EXPECT_NE(contrast_text(met, contrast).find("difference -2 Wh ["), std::string::npos);
 
   // An effect of 3 Wh is not there: the interval, from -2.3 to -1.7, falls short of it.
@@ -162,12 +163,12 @@ TEST_F(Claims, AreReproducedOnlyBeyondTheSmallestEffectAndShowThePlainDifference
 }
 
 TEST_F(Claims, AreContradictedByTheOpposite) {
-  const auto energy = [](const Place& p) { return rigid(p) ? 12.0 + noise_of(p.k) : 10.0; };
+  const auto energy = [](const Place& p) { return is_rigid(p) ? 12.0 + noise_of(p.k) : 10.0; };
   const ClaimResult result = judged_one(lower("smallest_effect = 1"), energy);
   EXPECT_EQ(result.verdict(), Verdict::contradicted);
   EXPECT_EQ(result.contrasts[0].against, Against::opposite);
   EXPECT_EQ(
-      judged_one("{ kind = \"higher\", higher = { " + cells + than + "smallest_effect = 1 } }",
+      judged_one("{ kind = \"higher\", higher = { " + of_rigid + than + "smallest_effect = 1 } }",
                  energy)
           .verdict(),
       Verdict::reproduced);
@@ -176,7 +177,7 @@ TEST_F(Claims, AreContradictedByTheOpposite) {
 TEST_F(Claims, NeedEveryComparisonToHoldAndOneToFail) {
   // At 10 s rigid spends less, at 20 and 30 s more.
   const auto energy = [](const Place& p) {
-    if (!rigid(p)) return 10.0;
+    if (!is_rigid(p)) return 10.0;
     return (p.label("period") == "10" ? 7.0 : 13.0) + noise_of(p.k);
   };
   const ClaimResult all =
@@ -189,7 +190,7 @@ TEST_F(Claims, NeedEveryComparisonToHoldAndOneToFail) {
 }
 
 TEST_F(Claims, OfTwoReplicationsAreUndecided) {
-  const auto energy = [](const Place& p) { return rigid(p) ? 8.0 + p.k : 10.0; };
+  const auto energy = [](const Place& p) { return is_rigid(p) ? 8.0 + p.k : 10.0; };
   const ClaimResult two = judged_one(lower("smallest_effect = 1"), energy, "", 2);
   EXPECT_EQ(two.verdict(), Verdict::undecided);
   ASSERT_TRUE(two.replications_needed());
@@ -200,11 +201,11 @@ TEST_F(Claims, OnLikenessAreTwoOneSidedTestsSeedBySeed) {
   // Theirs differ a lot from seed to seed, ours follow: within 5 % of theirs in each.
   const auto energy = [](const Place& p) {
     const double theirs = 10.0 + 3.0 * p.k;
-    return rigid(p) ? theirs * (1.0 + 0.02 * noise_of(p.k)) : theirs;
+    return is_rigid(p) ? theirs * (1.0 + 0.02 * noise_of(p.k)) : theirs;
   };
   const std::string within = "to = { behaviour = \"pairwise_referencing\" }, within_percent = ";
   const auto similar = [&](const std::string& percent) {
-    return judged_one("{ kind = \"similar\", similar = { " + cells + within + percent + " } }",
+    return judged_one("{ kind = \"similar\", similar = { " + of_rigid + within + percent + " } }",
                       energy);
   };
   const ClaimResult alike = similar("5");
@@ -216,14 +217,14 @@ TEST_F(Claims, OnLikenessAreTwoOneSidedTestsSeedBySeed) {
     below.push_back(1.05 * theirs - ours);
   }
   EXPECT_NEAR(*alike.contrasts[0].p_holds, std::max(t_p(above, 0.0), t_p(below, 0.0)), 1e-12);
-  const auto apart = [](const Place& p) { return rigid(p) ? 12.0 + noise_of(p.k) : 10.0; };
-  EXPECT_EQ(
-      judged_one("{ kind = \"similar\", similar = { " + cells + within + "5 } }", apart).verdict(),
-      Verdict::contradicted);
+  const auto apart = [](const Place& p) { return is_rigid(p) ? 12.0 + noise_of(p.k) : 10.0; };
+  EXPECT_EQ(judged_one("{ kind = \"similar\", similar = { " + of_rigid + within + "5 } }", apart)
+                .verdict(),
+            Verdict::contradicted);
 }
 
 TEST_F(Claims, OnBoundsAreOnTheMeanOrOnEachTrial) {
-  const auto energy = [](const Place& p) { return rigid(p) ? 10.0 + noise_of(p.k) : 50.0; };
+  const auto energy = [](const Place& p) { return is_rigid(p) ? 10.0 + noise_of(p.k) : 50.0; };
   const auto verdict = [&](const std::string& test, int replications = 8) {
     return judged_one(
                test, energy,
@@ -336,11 +337,12 @@ TEST_F(Claims, OnTheNearBestCompareWithEveryOtherLevel) {
 
 TEST_F(Claims, OnScatterAreOnTheRatioOfStandardDeviations) {
   const auto steadier = [&](double scale) {
-    return judged_one(
-        "{ kind = \"steadier\", steadier = { " + cells + than + "smallest_effect_percent = 20 } }",
-        [&](const Place& p) {
-          return 10.0 + (rigid(p) ? scale : 1.0) * noise_of(p.k + (rigid(p) ? 0 : 3));
-        });
+    return judged_one("{ kind = \"steadier\", steadier = { " + of_rigid + than +
+                          "smallest_effect_percent = 20 } }",
+                      [&](const Place& p) {
+                        return 10.0 +
+                               (is_rigid(p) ? scale : 1.0) * noise_of(p.k + (is_rigid(p) ? 0 : 3));
+                      });
   };
   const ClaimResult result = steadier(0.1);
   EXPECT_EQ(result.verdict(), Verdict::reproduced);
@@ -359,8 +361,8 @@ TEST_F(Claims, OnConsistencyAreOnTheStandardDeviationInTheMean) {
         "where = { settings = \"text\", period = 10, behaviour = \"rigid_registration\" }");
   };
   EXPECT_EQ(consistent("10").verdict(), Verdict::reproduced);
-  EXPECT_NEAR(*consistent("10").contrasts[0].estimate, 10.0 * statistics::standard_deviation(noise),
-              1e-9);
+  EXPECT_NEAR(*consistent("10").contrasts[0].estimate,
+              10.0 * statistics::standard_deviation(eight_noises), 1e-9);
   EXPECT_EQ(consistent("1").verdict(), Verdict::contradicted);
   EXPECT_EQ(consistent("4").verdict(), Verdict::undecided);
 }
@@ -368,7 +370,7 @@ TEST_F(Claims, OnConsistencyAreOnTheStandardDeviationInTheMean) {
 TEST_F(Claims, OnMediansAreSignTests) {
   // One trial of eight is far out; the mean says nothing.
   const auto energy = [](const Place& p) {
-    return rigid(p) ? (p.k == 0 ? 100.0 : 8.0 + noise_of(p.k)) : 10.0;
+    return is_rigid(p) ? (p.k == 0 ? 100.0 : 8.0 + noise_of(p.k)) : 10.0;
   };
   const std::string where = "where = { settings = \"text\", period = 10 }\n";
   EXPECT_EQ(judged_one(lower("smallest_effect = 1"), energy, where).verdict(), Verdict::undecided);
@@ -425,8 +427,9 @@ TEST_F(Claims, OnTimesCountTrialsThatNeverGotThereWithTheirBound) {
           lower("smallest_effect = 60"),
       [](const Place& p) {
         const std::optional<double> reached =
-            rigid(p) && p.k < 2 ? std::nullopt
-                                : std::optional(600.0 + p.k + (rigid(p) ? 0.0 : noise_of(p.k)));
+            is_rigid(p) && p.k < 2
+                ? std::nullopt
+                : std::optional(600.0 + p.k + (is_rigid(p) ? 0.0 : noise_of(p.k)));
         return Metrics{{"time_to_quality_20m_s", reached}, {"quality_watched_s", 3600.0}};
       });
   const JudgedClaim& part = judgement.statements[0].parts[0];
@@ -458,7 +461,8 @@ TEST_F(Claims, HaveOneVerdictAStatementAndColumnCorrectedOverAll) {
   // Under `text` rigid spends less than pairwise, under `program` more.
   const Gave gave = [](const Place& p) {
     const double rigid_wh = p.label("settings") == "text" ? 8.0 : 12.0;
-    return Metrics{{"energy_mean_wh", (rigid(p) ? rigid_wh : 10.0) + noise_of(p.k + rigid(p))}};
+    return Metrics{
+        {"energy_mean_wh", (is_rigid(p) ? rigid_wh : 10.0) + noise_of(p.k + is_rigid(p))}};
   };
   const Judgement judgement = judged(file("holm"), gave);
   EXPECT_EQ(judgement.columns, (std::vector<std::string>{"text", "program"}));
@@ -528,8 +532,9 @@ TEST_F(Claims, NameACauseOnlyIfItsOwnTestHolds) {
             "where = { settings = \"text\", period = 10, behaviour = \"rigid_registration\" }\n" +
             cause,
         [](const Place& p) {
-          return Metrics{{"energy_mean_wh", (rigid(p) ? 12.0 : 10.0) + noise_of(p.k + rigid(p))},
-                         {"fragments", 3.0 + noise_of(p.k)}};
+          return Metrics{
+              {"energy_mean_wh", (is_rigid(p) ? 12.0 : 10.0) + noise_of(p.k + is_rigid(p))},
+              {"fragments", 3.0 + noise_of(p.k)}};
         });
     return claim_lines(judgement.statements[0].parts[0], 0, judgement);
   };

@@ -8,23 +8,12 @@
 #include "shoal/core/text.hpp"
 #include "shoal/core/transform.hpp"
 #include "shoal/scenarios/toml_file.hpp"
+#include "tests/analysis/parked_trials.hpp"
 
 namespace shoal::analysis {
 namespace {
 
-using Settings = std::vector<std::string>;
-
-/// Four vehicles on a square of 300 m that never thrust: they are where their radius says.
-const Settings parked = {"trial.duration_s=100", "plan.square={rows=2,columns=2,separation_m=300}",
-                         "swarm.start.kind=plan", "guidance.drifting_radius_m=100000",
-                         "quality={every_s=10,layers=0}"};
-
-Trial run(const Settings& base, const Settings& more = {}) {
-  Setting root;
-  for (const std::string& setting : base) scenarios::apply_set(root, setting);
-  for (const std::string& setting : more) scenarios::apply_set(root, setting);
-  return run_trial(scenarios::read_scenario(root), {.record = false});
-}
+using namespace test;
 
 Settings both(Settings base, const Settings& more) {
   base.insert(base.end(), more.begin(), more.end());
@@ -40,10 +29,6 @@ double around_the_vortex_s() {
   double u = 0.0, v = 0.0;
   vortex->sample(0.0, {&radius_m, 1}, std::vector<double>{0.0}, {&u, 1}, {&v, 1});
   return 2.0 * std::numbers::pi * radius_m / v;
-}
-
-const scenarios::Series& series(const Results& results, const std::string& name) {
-  return *std::ranges::find(results.series, name, &scenarios::Series::name);
 }
 
 TEST(Results, KnowTheMeasuresByName) {

@@ -7,45 +7,26 @@
 
 #include "shoal/analysis/trial.hpp"
 #include "shoal/scenarios/toml_file.hpp"
+#include "tests/analysis/parked_trials.hpp"
 
 namespace shoal::analysis {
 namespace {
 
-using Settings = std::vector<std::string>;
-
-scenarios::Scenario scenario(const Settings& base, const Settings& more) {
-  Setting root;
-  for (const std::string& setting : base) scenarios::apply_set(root, setting);
-  for (const std::string& setting : more) scenarios::apply_set(root, setting);
-  return scenarios::read_scenario(root);
-}
-
-Trial run(const Settings& base, const Settings& more = {}) {
-  return run_trial(scenario(base, more), {.record = false});
-}
-
-const scenarios::Series& series(const Results& results, const std::string& name) {
-  return *std::ranges::find(results.series, name, &scenarios::Series::name);
-}
-
-/// Four vehicles on a square of 300 m that never thrust.
-const Settings parked = {"trial.duration_s=100", "plan.square={rows=2,columns=2,separation_m=300}",
-                         "swarm.start.kind=plan", "guidance.drifting_radius_m=100000",
-                         "quality={every_s=10,layers=0}"};
+using namespace test;
 
 /// Twelve vehicles that form a lattice of squares; a rule ends the trial.
-const Settings forming = {"trial.duration_s=3000",
-                          "plan.square={rows=3,columns=4,separation_m=300}",
-                          "behaviour.kind=rigid_registration", "quality.every_s=10",
-                          "stop.settled={threshold_m=20,window_s=200}"};
+const Settings twelve_forming = {"trial.duration_s=3000",
+                                 "plan.square={rows=3,columns=4,separation_m=300}",
+                                 "behaviour.kind=rigid_registration", "quality.every_s=10",
+                                 "stop.settled={threshold_m=20,window_s=200}"};
 
 TEST(Mission, EndsWhenTheFormationHasSettled) {
-  const Trial whole = run(forming);
+  const Trial whole = run(twelve_forming);
   EXPECT_EQ(whole.results.at("mission_s"), 3000.0);
   EXPECT_EQ(whole.results.at("stopped_s"), std::nullopt);
   EXPECT_EQ(whole.results.at("stop_watched_s"), std::nullopt);
 
-  const Trial stopped = run(forming, {"stop.kind=settled"});
+  const Trial stopped = run(twelve_forming, {"stop.kind=settled"});
   const double end_s = *stopped.results.at("mission_s");
   EXPECT_EQ(stopped.results.at("stopped_s"), end_s);
   EXPECT_EQ(stopped.results.at("stop_watched_s"), end_s);
@@ -71,8 +52,8 @@ TEST(Mission, EndsWhenTheFormationHasSettled) {
 }
 
 TEST(Mission, ThatNeverSettlesHasNoTimeAtWhichItWasStopped) {
-  const Trial tired =
-      run(forming, {"stop.kind=settled", "stop.settled.threshold_m=1e-9", "trial.duration_s=600"});
+  const Trial tired = run(twelve_forming, {"stop.kind=settled", "stop.settled.threshold_m=1e-9",
+                                           "trial.duration_s=600"});
   EXPECT_EQ(tired.results.at("mission_s"), 600.0);
   EXPECT_EQ(tired.results.at("stopped_s"), std::nullopt);
   EXPECT_EQ(tired.results.at("stop_watched_s"), 600.0);
@@ -80,7 +61,7 @@ TEST(Mission, ThatNeverSettlesHasNoTimeAtWhichItWasStopped) {
 
 TEST(Mission, IsEndedAtTheSameInstantWithAndWithoutARecord) {
   const scenarios::Scenario watched =
-      scenario(forming, {"stop.kind=settled", "trial.record_every_s=7"});
+      scenario_of(twelve_forming, {"stop.kind=settled", "trial.record_every_s=7"});
   const Trial bare = run_trial(watched, {.record = false});
   const Trial recorded = run_trial(watched, {.threads = 2, .record = true});
   EXPECT_EQ(bare.results.values, recorded.results.values);

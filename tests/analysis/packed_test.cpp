@@ -7,10 +7,12 @@
 #include <nlohmann/json.hpp>
 #include <vector>
 
+#include "tests/support/nan_value.hpp"
+
 namespace shoal::analysis {
 namespace {
 
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+using shoal::tests::nan_value;
 
 std::string text(std::initializer_list<std::uint8_t> bytes) {
   return packed_bytes(std::vector<std::uint8_t>(bytes));
@@ -32,7 +34,7 @@ TEST(Packed, HasTheLeastSignificantByteFirst) {
 }
 
 TEST(Packed, LevelsReachFromTheLeastToTheGreatest) {
-  const auto packed = packed_levels(std::vector<double>{-1.0, nan, 65533.0});
+  const auto packed = packed_levels(std::vector<double>{-1.0, nan_value, 65533.0});
   EXPECT_EQ(packed["offset"], -1.0);
   EXPECT_EQ(packed["scale"], 1.0);
   EXPECT_EQ(packed["data"], text({0x00, 0x00, 0xff, 0xff, 0xfe, 0xff}));
@@ -40,7 +42,7 @@ TEST(Packed, LevelsReachFromTheLeastToTheGreatest) {
 
 TEST(Packed, LevelsOfOneNumberOrNone) {
   EXPECT_EQ(packed_levels(std::vector<double>{7.0, 7.0})["offset"], 7.0);
-  EXPECT_EQ(packed_levels(std::vector<double>{nan})["data"], text({0xff, 0xff}));
+  EXPECT_EQ(packed_levels(std::vector<double>{nan_value})["data"], text({0xff, 0xff}));
   EXPECT_EQ(packed_levels(std::vector<double>{})["data"], "");
 }
 
@@ -60,7 +62,7 @@ TEST(Packed, StepsAreAsCoarseAsTheGreatestAsksFor) {
 }
 
 TEST(Packed, ARowEndsWhereItsNumbersEnd) {
-  const auto packed = packed_steps(std::vector<double>{1.0, nan, nan, nan}, 2);
+  const auto packed = packed_steps(std::vector<double>{1.0, nan_value, nan_value, nan_value}, 2);
   EXPECT_EQ(packed["first"].dump(), "[1.0,null]");
   EXPECT_EQ(packed["data"], text({0, 0, 0x00, 0x80, 0x00, 0x80, 0x00, 0x80}));
 }

@@ -11,7 +11,7 @@ namespace shoal::analysis {
 namespace {
 
 constexpr double mission_s = 7200.0;
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 /// A quality that is a function of time, looked at every 5 s.
 struct Sampled {

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "shoal/analysis/design.hpp"
+#include "shoal/analysis/sensitivity/sobol_indices.hpp"
 
 namespace shoal::analysis::test {
 
@@ -35,6 +36,10 @@ inline Eigen::MatrixXd saltelli_of_pairs(std::int64_t base_samples, int factors)
   return Registry<Design>::instance()
       .make("saltelli", table, "design.saltelli")
       ->cells(std::vector<int>(static_cast<std::size_t>(factors), 0));
+}
+
+inline bool covers(const IndexEstimate& estimate, double truth) {
+  return estimate.interval && estimate.interval->low <= truth && truth <= estimate.interval->high;
 }
 
 /// A function of one cell, whose factors lie in [0, 1].

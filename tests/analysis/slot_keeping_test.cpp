@@ -7,7 +7,7 @@
 namespace shoal::analysis {
 namespace {
 
-std::vector<Eigen::Vector2d> lattice() {
+std::vector<Eigen::Vector2d> lattice_slots() {
   std::vector<Eigen::Vector2d> slots;
   for (int row = 0; row < 4; ++row) {
     for (int column = 0; column < 5; ++column) slots.emplace_back(300.0 * column, 300.0 * row);
@@ -26,8 +26,8 @@ void add_instant(std::vector<Eigen::Vector2f>& places, const std::vector<Eigen::
 
 TEST(SlotKeeping, DoesNotMindWhereAFormationDriftsAndHowItTurns) {
   std::vector<Eigen::Vector2f> places;
-  for (int k = 0; k < 5; ++k) add_instant(places, lattice(), 0.7 * k, {100.0 * k, -50.0 * k});
-  const SlotKeeping keeping(lattice(), places);
+  for (int k = 0; k < 5; ++k) add_instant(places, lattice_slots(), 0.7 * k, {100.0 * k, -50.0 * k});
+  const SlotKeeping keeping(lattice_slots(), places);
   ASSERT_EQ(keeping.instants(), 5u);
   for (std::size_t k = 0; k < 5; ++k) {
     EXPECT_NEAR(keeping.mean_m(k), 0.0, 1e-3);  // floats
@@ -43,12 +43,12 @@ TEST(SlotKeeping, OfTwoVehiclesIsHalfTheErrorOfTheirDistance) {
 }
 
 TEST(SlotKeeping, KnowsTheVehicleThatCameFromAnotherSlot) {
-  std::vector<Eigen::Vector2d> before = lattice();
+  std::vector<Eigen::Vector2d> before = lattice_slots();
   before[19] += Eigen::Vector2d(300.0, 0.0);  // outside the outline; in the end it is in its corner
   std::vector<Eigen::Vector2f> places;
   add_instant(places, before, 0.3, {0.0, 0.0});
-  add_instant(places, lattice(), 0.3, {0.0, 0.0});
-  const SlotKeeping keeping(lattice(), places);
+  add_instant(places, lattice_slots(), 0.3, {0.0, 0.0});
+  const SlotKeeping keeping(lattice_slots(), places);
   EXPECT_EQ(keeping.elsewhere(0, 300.0), std::vector<std::size_t>{19});
   EXPECT_TRUE(keeping.elsewhere(1, 300.0).empty());
 }

@@ -16,17 +16,13 @@ using namespace test;  // NOLINT: the functions are few, and all of them are mea
 
 using List = std::vector<std::optional<double>>;
 
-SobolIndices sobol_indices(const List& of_one_seed, int factors,
-                           const Resampling& resampling = {}) {
-  return analysis::sobol_indices({of_one_seed}, {factors}, resampling);
+SobolIndices indices_of_one_seed(const List& of_one_seed, int factors,
+                                 const Resampling& resampling = {}) {
+  return sobol_indices({of_one_seed}, {factors}, resampling);
 }
 
-std::vector<SobolIndices> sobol_convergence(const List& of_one_seed, int factors) {
-  return analysis::sobol_convergence({of_one_seed}, {factors});
-}
-
-bool covers(const IndexEstimate& estimate, double truth) {
-  return estimate.interval && estimate.interval->low <= truth && truth <= estimate.interval->high;
+std::vector<SobolIndices> convergence_of_one_seed(const List& of_one_seed, int factors) {
+  return sobol_convergence({of_one_seed}, {factors});
 }
 
 /// That all indices of `known` from N base samples lie within `bound` of the truth, and the truth
@@ -34,7 +30,7 @@ bool covers(const IndexEstimate& estimate, double truth) {
 void expect_known(const Known& known, std::int64_t base_samples, double bound) {
   const int k = static_cast<int>(known.total.size());
   const List y = answers(saltelli(base_samples, k), known.f);
-  const SobolIndices indices = sobol_indices(y, k);
+  const SobolIndices indices = indices_of_one_seed(y, k);
   EXPECT_EQ(indices.base_samples, base_samples);
   EXPECT_EQ(indices.left_out, 0);
   EXPECT_EQ(indices.undefined, "");
@@ -80,7 +76,7 @@ TEST(SobolIndices, OfASumAreTheSharesOfItsTerms) {
 const List by_hand = {0.0, 1.0, 2.0, 4.0, 2.0, 2.0, 0.0, 2.0};
 
 TEST(SobolIndices, AreTheEstimatorsOfTheLiteratureOnCentredAnswers) {
-  const SobolIndices indices = sobol_indices(by_hand, 2);
+  const SobolIndices indices = indices_of_one_seed(by_hand, 2);
   ASSERT_EQ(indices.factors.size(), 2U);
   // Saltelli: ((4-2)(1-0) + (2-2)(2-2)) / 2 / 2; Jansen: ((1-0)^2 + (2-2)^2) / 4 / 2.
   EXPECT_DOUBLE_EQ(indices.factors[0].first_order.value, 0.5);
@@ -93,9 +89,9 @@ TEST(SobolIndices, AreTheEstimatorsOfTheLiteratureOnCentredAnswers) {
 TEST(SobolIndices, DoNotDependOnOriginAndUnitOfTheAnswer) {
   const Known g = sobol_g({0.0, 1.0, 4.5});
   const Eigen::MatrixXd cells = saltelli(256, 3);
-  const SobolIndices plain = sobol_indices(answers(cells, g.f), 3);
+  const SobolIndices plain = indices_of_one_seed(answers(cells, g.f), 3);
   const SobolIndices other =
-      sobol_indices(answers(cells, [&](const auto& x) { return 1e6 - 50.0 * g.f(x); }), 3);
+      indices_of_one_seed(answers(cells, [&](const auto& x) { return 1e6 - 50.0 * g.f(x); }), 3);
   for (std::size_t i = 0; i < 3; ++i) {
     // 1e6 keeps nine or ten digits of the answers.
     const auto& [first_order, total] = plain.factors[i];
@@ -108,7 +104,7 @@ TEST(SobolIndices, DoNotDependOnOriginAndUnitOfTheAnswer) {
 
 TEST(SobolIndices, OfAFactorWithoutInfluenceAreZeroAndNotDistinguishable) {
   const Known known = linear({1.0, 0.0, 2.0});
-  const SobolIndices indices = sobol_indices(answers(saltelli(256, 3), known.f), 3);
+  const SobolIndices indices = indices_of_one_seed(answers(saltelli(256, 3), known.f), 3);
   EXPECT_EQ(indices.factors[1].first_order.value, 0.0);
   EXPECT_EQ(indices.factors[1].total.value, 0.0);
   EXPECT_FALSE(indices.factors[1].first_order.distinguishable());
@@ -119,7 +115,7 @@ TEST(SobolIndices, OfAFactorWithoutInfluenceAreZeroAndNotDistinguishable) {
 
 TEST(SobolIndices, OfAPureInteractionAreTotalOnly) {
   const Function product = [](const auto& x) { return (x[0] - 0.5) * (x[1] - 0.5); };
-  const SobolIndices indices = sobol_indices(answers(saltelli(4096, 2), product), 2);
+  const SobolIndices indices = indices_of_one_seed(answers(saltelli(4096, 2), product), 2);
   for (const auto& [first_order, total] : indices.factors) {
     EXPECT_FALSE(first_order.distinguishable());
     EXPECT_NEAR(total.value, 1.0, 0.02);
@@ -133,7 +129,8 @@ TEST(SobolIndices, LeaveOutABaseSampleWithAMissingAnswerAsAWhole) {
     List gappy = all, shorter = all;
     gappy[20 + missing] = std::nullopt;
     shorter.erase(shorter.begin() + 20, shorter.begin() + 24);
-    const SobolIndices left = sobol_indices(gappy, 2), without = sobol_indices(shorter, 2);
+    const SobolIndices left = indices_of_one_seed(gappy, 2),
+                       without = indices_of_one_seed(shorter, 2);
     EXPECT_EQ(left.base_samples, 63);
     EXPECT_EQ(left.left_out, 1);
     EXPECT_EQ(without.left_out, 0);
@@ -144,23 +141,24 @@ TEST(SobolIndices, LeaveOutABaseSampleWithAMissingAnswerAsAWhole) {
 }
 
 TEST(SobolIndices, OfAnswersThatDoNotVaryAreNotDefined) {
-  const SobolIndices constant = sobol_indices(List(64, 0.1), 2);
+  const SobolIndices constant = indices_of_one_seed(List(64, 0.1), 2);
   EXPECT_EQ(constant.base_samples, 16);
   EXPECT_TRUE(constant.factors.empty());
   EXPECT_EQ(constant.undefined, "the answers to the base samples do not vary");
 
   List rounded(64, 33.82);
   rounded[3] = std::nextafter(33.82, 40.0);
-  EXPECT_EQ(sobol_indices(rounded, 2).undefined, "the answers to the base samples do not vary");
+  EXPECT_EQ(indices_of_one_seed(rounded, 2).undefined,
+            "the answers to the base samples do not vary");
 }
 
 TEST(SobolIndices, OfOneBaseSampleAreNotDefined) {
-  const SobolIndices one = sobol_indices(List{0.0, 1.0, 2.0, 4.0}, 2);
+  const SobolIndices one = indices_of_one_seed(List{0.0, 1.0, 2.0, 4.0}, 2);
   EXPECT_EQ(one.base_samples, 1);
   EXPECT_TRUE(one.factors.empty());
   EXPECT_NE(one.undefined, "");
 
-  const SobolIndices none = sobol_indices(List(8, std::nullopt), 2);
+  const SobolIndices none = indices_of_one_seed(List(8, std::nullopt), 2);
   EXPECT_EQ(none.base_samples, 0);
   EXPECT_EQ(none.left_out, 2);
   EXPECT_NE(none.undefined, "");
@@ -168,7 +166,7 @@ TEST(SobolIndices, OfOneBaseSampleAreNotDefined) {
 
 TEST(SobolIndices, HaveNoIntervalWhereAResampleDoesNotVary) {
   // Drawn alone, the second base sample of these, 2 and 2, has no variance.
-  const SobolIndices indices = sobol_indices(by_hand, 2);
+  const SobolIndices indices = indices_of_one_seed(by_hand, 2);
   for (const auto& [first_order, total] : indices.factors) {
     EXPECT_EQ(first_order.interval, std::nullopt);
     EXPECT_FALSE(total.distinguishable());
@@ -176,31 +174,32 @@ TEST(SobolIndices, HaveNoIntervalWhereAResampleDoesNotVary) {
 }
 
 TEST(SobolIndices, RefuseAnswersThatAreNoDesign) {
-  EXPECT_THROW(sobol_indices(List(7, 1.0), 2), std::invalid_argument);
-  EXPECT_THROW(sobol_indices(List(8, 1.0), 0), std::invalid_argument);
+  EXPECT_THROW(indices_of_one_seed(List(7, 1.0), 2), std::invalid_argument);
+  EXPECT_THROW(indices_of_one_seed(List(8, 1.0), 0), std::invalid_argument);
   List infinite = by_hand;
   infinite[2] = std::numeric_limits<double>::infinity();
-  EXPECT_THROW(sobol_indices(infinite, 2), std::invalid_argument);
-  EXPECT_THROW(sobol_indices(by_hand, 2, {.level = 1.0}), std::invalid_argument);
-  EXPECT_THROW(sobol_indices(by_hand, 2, {.resamples = 0}), std::invalid_argument);
+  EXPECT_THROW(indices_of_one_seed(infinite, 2), std::invalid_argument);
+  EXPECT_THROW(indices_of_one_seed(by_hand, 2, {.level = 1.0}), std::invalid_argument);
+  EXPECT_THROW(indices_of_one_seed(by_hand, 2, {.resamples = 0}), std::invalid_argument);
 }
 
 TEST(SobolIndices, AreTheSameBitsAgainAndOfAnotherSeedHaveOtherIntervals) {
   const List y = answers(saltelli(64, 2), linear({1.0, 2.0}).f);
-  const IndexEstimate once = sobol_indices(y, 2).factors[0].total;
-  EXPECT_EQ(once.interval->low, sobol_indices(y, 2).factors[0].total.interval->low);
-  EXPECT_NE(once.interval->low, sobol_indices(y, 2, {.seed = 2}).factors[0].total.interval->low);
+  const IndexEstimate once = indices_of_one_seed(y, 2).factors[0].total;
+  EXPECT_EQ(once.interval->low, indices_of_one_seed(y, 2).factors[0].total.interval->low);
+  EXPECT_NE(once.interval->low,
+            indices_of_one_seed(y, 2, {.seed = 2}).factors[0].total.interval->low);
 }
 
 TEST(SobolConvergence, IsThatOfTheSmallerDesigns) {
   const Known known = ishigami(7.0, 0.1);
   const List y = answers(saltelli(1024, 3), known.f);
-  const std::vector<SobolIndices> steps = sobol_convergence(y, 3);
+  const std::vector<SobolIndices> steps = convergence_of_one_seed(y, 3);
   ASSERT_EQ(steps.size(), 4U);
   for (std::size_t s = 0; s < 4; ++s) {
     const int n = 128 << s;
     EXPECT_EQ(steps[s].base_samples, n);
-    const SobolIndices smaller = sobol_indices(answers(saltelli(n, 3), known.f), 3);
+    const SobolIndices smaller = indices_of_one_seed(answers(saltelli(n, 3), known.f), 3);
     for (std::size_t i = 0; i < 3; ++i) {
       EXPECT_EQ(steps[s].factors[i].total.value, smaller.factors[i].total.value);
       EXPECT_EQ(steps[s].factors[i].first_order.interval->high,
@@ -212,7 +211,7 @@ TEST(SobolConvergence, IsThatOfTheSmallerDesigns) {
 TEST(SobolConvergence, CountsWhatIsMissingInEachPart) {
   List y = answers(saltelli(16, 2), linear({1.0, 2.0}).f);
   y[12] = std::nullopt;
-  const std::vector<SobolIndices> steps = sobol_convergence(y, 2);
+  const std::vector<SobolIndices> steps = convergence_of_one_seed(y, 2);
   ASSERT_EQ(steps.size(), 4U);
   const std::vector<int> left_out = {0, 1, 1, 1};
   for (std::size_t s = 0; s < 4; ++s) EXPECT_EQ(steps[s].left_out, left_out[s]);
@@ -220,7 +219,7 @@ TEST(SobolConvergence, CountsWhatIsMissingInEachPart) {
 
 TEST(SobolConvergence, BeginsWithOneBaseSampleOfFew) {
   const std::vector<SobolIndices> steps =
-      sobol_convergence(answers(saltelli(4, 2), linear({1.0, 2.0}).f), 2);
+      convergence_of_one_seed(answers(saltelli(4, 2), linear({1.0, 2.0}).f), 2);
   ASSERT_EQ(steps.size(), 3U);
   EXPECT_NE(steps[0].undefined, "");
   EXPECT_EQ(steps[2].base_samples, 4);
@@ -238,13 +237,13 @@ TEST(SobolIntervals, AreThoseOfTheEstimatorItself) {
       const List& sample = samples[static_cast<std::size_t>(drawn)];
       y.insert(y.end(), sample.begin(), sample.end());
     }
-    const SobolIndices indices = sobol_indices(y, 2, {.resamples = 1});
+    const SobolIndices indices = indices_of_one_seed(y, 2, {.resamples = 1});
     first_order.push_back(indices.factors[0].first_order.value);
     total.push_back(indices.factors[0].total.value);
   }
   List y;
   for (const List& sample : samples) y.insert(y.end(), sample.begin(), sample.end());
-  const SobolIndices indices = sobol_indices(y, 2, {.level = 0.999999});
+  const SobolIndices indices = indices_of_one_seed(y, 2, {.level = 0.999999});
   const auto& [s, t] = indices.factors[0];
   EXPECT_NEAR(s.interval->low, *std::ranges::min_element(first_order), 1e-12);
   EXPECT_NEAR(s.interval->high, *std::ranges::max_element(first_order), 1e-12);
@@ -259,7 +258,7 @@ std::vector<int> coverage(const Known& known,
   std::vector<int> covered(2 * known.total.size(), 0);
   for (std::uint64_t seed = 0; seed < 200; ++seed) {
     const List y = answers(design(seed), known.f);
-    const SobolIndices indices = sobol_indices(y, k, {.resamples = 300, .seed = seed});
+    const SobolIndices indices = indices_of_one_seed(y, k, {.resamples = 300, .seed = seed});
     for (std::size_t i = 0; i < known.total.size(); ++i) {
       const auto& [first_order, total] = indices.factors[i];
       covered[2 * i] += covers(first_order, known.first_order[i]) ? 1 : 0;

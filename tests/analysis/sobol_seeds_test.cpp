@@ -13,11 +13,7 @@ namespace {
 
 using namespace test;  // NOLINT: the functions are few, and all of them are meant
 
-bool covers(const IndexEstimate& estimate, double truth) {
-  return estimate.interval && estimate.interval->low <= truth && truth <= estimate.interval->high;
-}
-
-void expect_known(const SobolIndices& indices, const Known& known, double bound) {
+void expect_known_pairs(const SobolIndices& indices, const Known& known, double bound) {
   ASSERT_EQ(indices.undefined, "");
   for (std::size_t i = 0; i < known.total.size(); ++i) {
     EXPECT_NEAR(indices.factors[i].first_order.value, known.first_order[i], bound) << "S" << i + 1;
@@ -35,11 +31,14 @@ void expect_known(const SobolIndices& indices, const Known& known, double bound)
 
 TEST(SobolPairs, OfKnownFunctionsAreTheAnalyticOnes) {
   const Known f = ishigami(7.0, 0.1);
-  expect_known(sobol_indices({answers(saltelli_of_pairs(4096, 3), f.f)}, {3, true}), f, 0.005);
+  expect_known_pairs(sobol_indices({answers(saltelli_of_pairs(4096, 3), f.f)}, {3, true}), f,
+                     0.005);
   const Known g = sobol_g({0.0, 0.5, 3.0});
-  expect_known(sobol_indices({answers(saltelli_of_pairs(4096, 3), g.f)}, {3, true}), g, 0.005);
+  expect_known_pairs(sobol_indices({answers(saltelli_of_pairs(4096, 3), g.f)}, {3, true}), g,
+                     0.005);
   const Known sum = linear({1.0, 2.0, -3.0});
-  expect_known(sobol_indices({answers(saltelli_of_pairs(4096, 3), sum.f)}, {3, true}), sum, 0.001);
+  expect_known_pairs(sobol_indices({answers(saltelli_of_pairs(4096, 3), sum.f)}, {3, true}), sum,
+                     0.001);
 }
 
 // Two factors, two base samples: A, AB_1, AB_2, BA_1, BA_2, B.
@@ -88,7 +87,7 @@ TEST(SobolSeeds, NoiseHasNoPartInTheIndicesOfTheMean) {
   const Eigen::MatrixXd cells = saltelli_of_pairs(2048, 3);
   // The noise has about the variance of g itself.
   const AnswersBySeed noisy = under_seeds(cells, g.f, 1, 4, 0.0, 0.6);
-  expect_known(sobol_indices(noisy, {3, true}), g, 0.06);
+  expect_known_pairs(sobol_indices(noisy, {3, true}), g, 0.06);
   // Of one seed it counts as an interaction of all factors.
   EXPECT_GT(sobol_indices({noisy.front()}, {3, true}).factors[2].total.value, 0.35);
 }

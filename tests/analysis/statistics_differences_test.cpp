@@ -19,8 +19,8 @@ namespace {
 using enum Alternative;
 
 /// Twenty trials of seven vehicles: how many arrived with a wall to the north, and to the south.
-const std::vector<int> before{7, 7, 7, 7, 6, 7, 7, 6, 7, 7, 7, 6, 7, 7, 7, 7, 7, 6, 7, 7};
-const std::vector<int> after{5, 4, 6, 3, 7, 5, 1, 7, 6, 6, 4, 7, 7, 6, 6, 7, 2, 7, 3, 3};
+const std::vector<int> counts_before{7, 7, 7, 7, 6, 7, 7, 6, 7, 7, 7, 6, 7, 7, 7, 7, 7, 6, 7, 7};
+const std::vector<int> counts_after{5, 4, 6, 3, 7, 5, 1, 7, 6, 6, 4, 7, 7, 6, 6, 7, 2, 7, 3, 3};
 
 struct Pairs {
   std::vector<double> before, after;
@@ -31,9 +31,9 @@ struct Pairs {
 template <class Of>
 Pairs pairs(const Of& of) {
   Pairs made;
-  for (std::size_t k = 0; k < before.size(); ++k) {
-    made.before.push_back(of(before[k]));
-    made.after.push_back(of(after[k]));
+  for (std::size_t k = 0; k < counts_before.size(); ++k) {
+    made.before.push_back(of(counts_before[k]));
+    made.after.push_back(of(counts_after[k]));
   }
   return made;
 }

@@ -9,15 +9,14 @@
 #include <vector>
 
 #include "shoal/analysis/statistics/paired_tests.hpp"
+#include "tests/analysis/sleep_hours.hpp"
 
 namespace shoal::analysis::statistics {
 namespace {
 
-const std::vector<double> differences{-1.2, -2.4, -1.3, -1.3, 0.0, -1.0, -1.8, -0.8, -4.6, -1.4};
-
 TEST(CohensDz, IsTOverTheRootOfN) {
-  EXPECT_DOUBLE_EQ(cohens_d_z(differences).value(),
-                   paired_t_test(differences).value().statistic / std::sqrt(10.0));
+  EXPECT_DOUBLE_EQ(cohens_d_z(sleep_hours).value(),
+                   paired_t_test(sleep_hours).value().statistic / std::sqrt(10.0));
 }
 
 TEST(HedgesGz, MultipliesByTheFactorOfItsDegreesOfFreedom) {
@@ -28,7 +27,7 @@ TEST(HedgesGz, MultipliesByTheFactorOfItsDegreesOfFreedom) {
   EXPECT_NEAR(hedges_g_z(five).value(),
               3.0 / std::sqrt(2.5) * std::numbers::sqrt2 * std::numbers::inv_sqrtpi, 1e-14);
   // Hedges and Olkin 1985, table 2.
-  EXPECT_NEAR(hedges_g_z(differences).value() / cohens_d_z(differences).value(), 0.9139, 5e-5);
+  EXPECT_NEAR(hedges_g_z(sleep_hours).value() / cohens_d_z(sleep_hours).value(), 0.9139, 5e-5);
 }
 
 TEST(HedgesGz, IsUnbiasedForNormalDifferences) {

@@ -12,12 +12,10 @@
 #include <vector>
 
 #include "shoal/analysis/statistics/summary.hpp"
+#include "tests/analysis/sleep_hours.hpp"
 
 namespace shoal::analysis::statistics {
 namespace {
-
-/// Student 1908: additional hours of sleep under two drugs, patient by patient; their differences.
-const std::vector<double> sleep_hours{-1.2, -2.4, -1.3, -1.3, 0.0, -1.0, -1.8, -0.8, -4.6, -1.4};
 
 /// Efron and Tibshirani 1993, table 14.1: spatial perception of 26 children, test A.
 const std::vector<double> spatial{48, 36, 20, 29, 42, 42, 20, 42, 22, 41, 45, 14, 6,

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "shoal/analysis/statistics/signed_ranks.hpp"
+#include "tests/analysis/sleep_hours.hpp"
 
 namespace shoal::analysis::statistics {
 namespace {
@@ -17,9 +18,6 @@ using enum Alternative;
 
 /// Darwin 1876: crossed less self-fertilised Zea mays, in eighths of an inch.
 const std::vector<double> darwin{49, -67, 8, 16, 6, 23, 28, 41, 14, 29, 56, 24, 75, 60, -48};
-
-/// Student 1908: additional hours of sleep under two drugs, patient by patient; their differences.
-const std::vector<double> sleep_hours{-1.2, -2.4, -1.3, -1.3, 0.0, -1.0, -1.8, -0.8, -4.6, -1.4};
 
 /// Hollander and Wolfe 1973, p. 29: depression before less after the first therapy.
 const std::vector<double> depression{1.83 - 0.878, 0.50 - 0.647, 1.62 - 0.598,

@@ -8,13 +8,14 @@
 
 #include "shoal/analysis/study/stored_union.hpp"
 #include "shoal/core/error.hpp"
+#include "tests/support/nan_value.hpp"
 #include "tests/support/scratch_folder.hpp"
 
 namespace shoal::analysis {
 namespace {
 
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-constexpr double inf = std::numeric_limits<double>::infinity();
+using shoal::tests::nan_value;
+constexpr double infinity = std::numeric_limits<double>::infinity();
 
 StoredTrial trial(const std::string& key) {
   return {.key = key,
@@ -76,8 +77,8 @@ TEST_F(StoreInAFolder, KeepsEveryBitOfAMetric) {
                                     12345678901234567.0,
                                     5e-324,
                                     -0.0,
-                                    inf,
-                                    -inf,
+                                    infinity,
+                                    -infinity,
                                     std::numeric_limits<double>::max()};
   StoredTrial written = trial("a");
   written.metrics.clear();
@@ -92,7 +93,7 @@ TEST_F(StoreInAFolder, KeepsEveryBitOfAMetric) {
 
 TEST_F(StoreInAFolder, RefusesAMetricThatIsNoNumber) {
   StoredTrial written = trial("a");
-  written.metrics = {{"energy_wh", nan}};
+  written.metrics = {{"energy_wh", nan_value}};
   EXPECT_THROW(write(written), std::logic_error);
   EXPECT_FALSE(Store(folder_.path(), Store::Access::read).find("a"));
 }
@@ -100,7 +101,7 @@ TEST_F(StoreInAFolder, RefusesAMetricThatIsNoNumber) {
 TEST_F(StoreInAFolder, KeepsEveryBitOfASeriesAndItsUnit) {
   StoredTrial written = trial("a");
   written.series = {{"empty_m", "m", "nothing", {}, {}},
-                    {"quality", "m", "how good", {0.0, 30.0, 1e9}, {-0.0, nan, inf}}};
+                    {"quality", "m", "how good", {0.0, 30.0, 1e9}, {-0.0, nan_value, infinity}}};
   write(written);
   const StoredTrial found = read("a");
   ASSERT_EQ(found.series.size(), 2u);
@@ -197,7 +198,7 @@ TEST(Difference, IsNoneBetweenEqualTrialsHoweverLongTheyTook) {
   StoredTrial a = trial("a"), b = trial("a");
   b.wall_s = 100.0;
   b.metrics = {{"quality_m", std::nullopt}, {"energy_wh", 0.1}, {"other_m", std::nullopt}};
-  a.series = {{"quality", "m", "", {0.0, 1.0}, {nan, 1.0}}};
+  a.series = {{"quality", "m", "", {0.0, 1.0}, {nan_value, 1.0}}};
   EXPECT_EQ(difference(a, b), std::nullopt);  // one of them lacks the series
   b.series = a.series;
   EXPECT_EQ(difference(a, b), std::nullopt);

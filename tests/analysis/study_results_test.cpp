@@ -19,7 +19,7 @@ namespace {
 
 using tests::complaint_of;
 
-const char* const study_text = R"(
+const char* const two_factors = R"(
 scenario = "construction_square"
 replications = 5
 [[factor]]
@@ -45,7 +45,7 @@ class Stored : public testing::Test {
   }
   void TearDown() override { std::filesystem::remove_all(folder_); }
 
-  StudyResults results(const Energies& energies, const std::string& text = study_text) {
+  StudyResults results(const Energies& energies, const std::string& text = two_factors) {
     const StudyPlan plan(read_study(scenarios::parse_toml(text, "study.toml")));
     Store store(folder_, Store::Access::write);
     const PlannedGroup& group = plan.groups().front();
@@ -102,7 +102,7 @@ TEST_F(Stored, ATableShowsNAndFailuresAndTheBestOnlyIfATestTellsIt) {
 
 TEST_F(Stored, NotRunFailedUndefinedAndNeverReachedAreFourAnswers) {
   using enum Answer::Kind;
-  const StudyPlan plan(read_study(scenarios::parse_toml(study_text, "study.toml")));
+  const StudyPlan plan(read_study(scenarios::parse_toml(two_factors, "study.toml")));
   Store store(folder_, Store::Access::write);
   using Metrics = std::vector<std::pair<std::string, std::optional<double>>>;
   const std::vector<Metrics> trials{
@@ -237,7 +237,7 @@ metrics = ["energy_mean_wh"]
 )";
   const Energies energies{{{rigid, "10"}, {most, 1, 2, 3, 4}},
                           {{pairwise, "10"}, {-most, 1, 2, 3, 4}}};
-  const std::vector<Table> tables = study_tables(results(energies, study_text + tables_wanted));
+  const std::vector<Table> tables = study_tables(results(energies, two_factors + tables_wanted));
   ASSERT_EQ(tables.size(), 2u);
   EXPECT_EQ(tables[0].rows.size(), 2u);
   EXPECT_EQ(tables[1].columns.front().header, "not computed");
@@ -248,7 +248,7 @@ metrics = ["energy_mean_wh"]
 class StoredTimes : public Stored {
  protected:
   StudyResults times(const std::vector<double>& ours, const std::vector<double>& theirs) {
-    const StudyPlan plan(read_study(scenarios::parse_toml(study_text, "study.toml")));
+    const StudyPlan plan(read_study(scenarios::parse_toml(two_factors, "study.toml")));
     Store store(folder_, Store::Access::write);
     const PlannedGroup& group = plan.groups().front();
     for (const PlannedTrial& planned : plan.all_trials()) {

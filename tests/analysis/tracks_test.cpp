@@ -10,7 +10,7 @@
 namespace shoal::analysis {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 std::vector<std::span<const Eigen::Vector2d>> spans(const std::vector<Track>& tracks) {
   return {tracks.begin(), tracks.end()};

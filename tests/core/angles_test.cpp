@@ -1,12 +1,15 @@
 #include "shoal/core/angles.hpp"
 
 #include <gtest/gtest.h>
+
 #include <rapidcheck.h>
+
+#include <numbers>
 
 namespace shoal {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 TEST(Angles, WrappedIsTheSameDirectionWithinHalfATurn) {
   EXPECT_TRUE(rc::check("wrapped", [] {

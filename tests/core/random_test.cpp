@@ -70,10 +70,10 @@ TEST(RandomStreams, GiveThePublishedPhiloxNumbers) {
   const auto ones = RandomStreams(~0ull).uniform(Purpose{~0u}, ~0u, ~0ull);
   EXPECT_EQ(ones[0], from_words(0x408f276d, 0x41c83b0e));
   EXPECT_EQ(ones[1], from_words(0xa20bc7c6, 0x6d5451fd));
-  const auto pi = RandomStreams(0x299f31d0a4093822)
-                      .uniform(Purpose{0x03707344}, 0x13198a2e, 0x85a308d3243f6a88);
-  EXPECT_EQ(pi[0], from_words(0xd16cfe09, 0x94fdcceb));
-  EXPECT_EQ(pi[1], from_words(0x5001e420, 0x24126ea1));
+  const auto of_pi = RandomStreams(0x299f31d0a4093822)
+                         .uniform(Purpose{0x03707344}, 0x13198a2e, 0x85a308d3243f6a88);
+  EXPECT_EQ(of_pi[0], from_words(0xd16cfe09, 0x94fdcceb));
+  EXPECT_EQ(of_pi[1], from_words(0x5001e420, 0x24126ea1));
 }
 
 TEST(RandomStreams, SameKeyGivesTheSameNumbers) {

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "shoal/core/setting.hpp"
+#include "tests/support/complaint_of.hpp"
 
 namespace shoal::tests {
 
@@ -30,16 +31,6 @@ inline Setting with(const std::string& path, Setting x) {
   root.origin = {"dir/s.toml", 1};
   assign(root, path, std::move(x));
   return root;
-}
-
-template <class Act>
-std::string complaint_of(Act act) {
-  try {
-    act();
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "";
 }
 
 }  // namespace shoal::tests

@@ -13,14 +13,7 @@ namespace {
 
 using namespace tests;
 
-const char* const kind = "attraction_repulsion";
-const Plan unused = plan_of({{0, 0}});
-
-Neighbours at(std::initializer_list<Vector2d> positions) {
-  Neighbours all;
-  for (const Vector2d& p : positions) all.push_back({p, 0.0, anonymous});
-  return all;
-}
+const char* const attraction_kind = "attraction_repulsion";
 
 /// The cost of eq. 3.7 for the two selected neighbours and the centroid given.
 double cost(const Vector2d& p, const Neighbours& selected, const Vector2d& centroid,
@@ -35,7 +28,7 @@ double cost(const Vector2d& p, const Neighbours& selected, const Vector2d& centr
 
 // The example of fig. 3.7: the nearer of the two points at 300 m from both neighbours, and where
 // the pull of the centroid moves it. The thesis prints (-45, 106).
-const Neighbours figure37 = at({{-280, -81}, {-25, -193}});
+const Neighbours figure37 = neighbours_at({{-280, -81}, {-25, -193}});
 const Vector2d equidistant37(-45.6437, 106.2889);
 const Vector2d answer37(-45.7795, 105.9797);
 
@@ -57,9 +50,9 @@ TEST_P(EnrolledSolver, FindsThePlaceOfFigure37) {
     GTEST_SKIP() << GetParam() << " " << *why;
   }
   const auto target = [&](double centroid_weight) {
-    return behaviour(kind,
+    return behaviour(attraction_kind,
                      {{"cohesion.centroid.weight", centroid_weight}, {"solver.kind", GetParam()}})
-        ->step({figure37, 0}, unused);
+        ->step({figure37, 0}, unused_plan);
   };
   EXPECT_EQ(target(0.0).reason, Reason::placed);
   EXPECT_LT((target(0.0).position - equidistant37).norm(), 1e-3);
@@ -75,25 +68,28 @@ INSTANTIATE_TEST_SUITE_P(Solvers, EnrolledSolver,
 
 TEST(AttractionRepulsion, ChoosesTheNearestAndTheOneOfTheShortestTriangle) {
   // The second nearest (310 m, but opposite) makes a longer triangle than the third.
-  const Neighbours seen = at({{-310, 0}, {250, 0}, {200, 280}});
-  const auto without_centroid = behaviour(kind, {{"cohesion.centroid.weight", 0.0}});
-  const Vector2d target = without_centroid->step({seen, 0}, unused).position;
+  const Neighbours seen = neighbours_at({{-310, 0}, {250, 0}, {200, 280}});
+  const auto without_centroid = behaviour(attraction_kind, {{"cohesion.centroid.weight", 0.0}});
+  const Vector2d target = without_centroid->step({seen, 0}, unused_plan).position;
   EXPECT_NEAR((target - seen[1].position).norm(), 300.0, 0.01);
   EXPECT_NEAR((target - seen[2].position).norm(), 300.0, 0.01);
 }
 
 TEST(AttractionRepulsion, IgnoresNeighboursOutOfRange) {
-  const auto near_only = behaviour(kind, {{"contact_rangeout_m", 300.0}});
-  const auto all_near = near_only->step({at({{-200, -81}, {-25, -193}}), 0}, unused);
-  const auto with_far = near_only->step({at({{0, 301}, {-200, -81}, {-25, -193}}), 0}, unused);
+  const auto near_only = behaviour(attraction_kind, {{"contact_rangeout_m", 300.0}});
+  const auto all_near =
+      near_only->step({neighbours_at({{-200, -81}, {-25, -193}}), 0}, unused_plan);
+  const auto with_far =
+      near_only->step({neighbours_at({{0, 301}, {-200, -81}, {-25, -193}}), 0}, unused_plan);
   EXPECT_EQ(all_near.position, with_far.position);
-  EXPECT_EQ(near_only->step({at({{0, 301}}), 0}, unused).reason, Reason::no_neighbour);
+  EXPECT_EQ(near_only->step({neighbours_at({{0, 301}}), 0}, unused_plan).reason,
+            Reason::no_neighbour);
 }
 
 TEST(AttractionRepulsion, MinimisesTheSumAndThePullOfTheCentroidOfAllNeighbours) {
-  const Neighbours seen = at({{-280, -81}, {-25, -193}, {600, 150}});
+  const Neighbours seen = neighbours_at({{-280, -81}, {-25, -193}, {600, 150}});
   const Vector2d centroid = (seen[0].position + seen[1].position + seen[2].position) / 3.0;
-  const Target target = behaviour(kind)->step({seen, 0}, unused);
+  const Target target = behaviour(attraction_kind)->step({seen, 0}, unused_plan);
   const auto expected = [&](const Vector2d& p) { return cost(p, figure37, centroid); };
   EXPECT_NEAR(target.cost, expected(target.position), 1e-9);
   for (int i = 0; i < 12; ++i) {  // lower than anywhere around
@@ -107,8 +103,8 @@ TEST(AttractionRepulsion, MinimisesTheSumAndThePullOfTheCentroidOfAllNeighbours)
 TEST(AttractionRepulsion, MinimisesTheMeanWithTheOwnPositionInTheCentroidInTheAuthorsVariant) {
   const Vector2d centroid = (figure37[0].position + figure37[1].position) / 3.0;
   const Target target =
-      behaviour(kind, {{"combination", "mean"}, {"cohesion.centroid.counts_own", true}})
-          ->step({figure37, 0}, unused);
+      behaviour(attraction_kind, {{"combination", "mean"}, {"cohesion.centroid.counts_own", true}})
+          ->step({figure37, 0}, unused_plan);
   const auto expected = [&](const Vector2d& p) { return cost(p, figure37, centroid, 0.5); };
   EXPECT_NEAR(target.cost, expected(target.position), 1e-9);
   for (int i = 0; i < 12; ++i) {
@@ -119,42 +115,43 @@ TEST(AttractionRepulsion, MinimisesTheMeanWithTheOwnPositionInTheCentroidInTheAu
 
 // One neighbour at 200 m: f'(r) = share * (1 - (s/r)^3) + 2 w (r - distance to the centroid).
 TEST(AttractionRepulsion, KeepsTheSeparationFromASingleNeighbour) {
-  const Target free =
-      behaviour(kind, {{"cohesion.centroid.weight", 0.0}})->step({at({{0, 200}}), 0}, unused);
+  const Target free = behaviour(attraction_kind, {{"cohesion.centroid.weight", 0.0}})
+                          ->step({neighbours_at({{0, 200}}), 0}, unused_plan);
   EXPECT_LT((free.position - Vector2d(0, -100)).norm(), 0.01);
 }
 
 TEST(AttractionRepulsion, TakesTheSeparationFromItsOptions) {
-  const Target target = behaviour(kind, {{"cohesion.centroid.weight", 0.0}, {"separation_m", 60.0}})
-                            ->step({at({{100, 0}}), 0}, unused);
+  const Target target =
+      behaviour(attraction_kind, {{"cohesion.centroid.weight", 0.0}, {"separation_m", 60.0}})
+          ->step({neighbours_at({{100, 0}}), 0}, unused_plan);
   EXPECT_LT((target.position - Vector2d(40, 0)).norm(), 0.01);
 }
 
 // Invariance ------------------------------------------------------------------------------------
 
 TEST(AttractionRepulsion, StaysWhereALatticeTriangleIsReached) {
-  const auto free = behaviour(kind, {{"cohesion.centroid.weight", 0.0}});
+  const auto free = behaviour(attraction_kind, {{"cohesion.centroid.weight", 0.0}});
   EXPECT_TRUE(rc::check("equilateral triangle in any direction: zero displacement", [&] {
     const double angle = drawn_angle();
-    Neighbours seen = at({{300, 0}, {150, 300 * std::sqrt(0.75)}});
+    Neighbours seen = neighbours_at({{300, 0}, {150, 300 * std::sqrt(0.75)}});
     seen = turned(seen, rotation(angle));
-    RC_ASSERT(free->step({seen, 0}, unused).position.norm() < 1e-3);
+    RC_ASSERT(free->step({seen, 0}, unused_plan).position.norm() < 1e-3);
   }));
 }
 
 TEST(AttractionRepulsion, TurnsWithTheNeighboursAndIgnoresIdsPlanAndOrder) {
-  const auto attraction = behaviour(kind);
+  const auto attraction = behaviour(attraction_kind);
   EXPECT_TRUE(rc::check("rotation, ids, plan, order", [&] {
     const Plan plan = drawn_plan(3, 12, 500);
     const Neighbours seen = drawn_neighbours(plan, 0);
     const Target target = attraction->step({seen, 0}, plan);
     RC_PRE(target.reason == Reason::placed);  // not on top of a neighbour
 
-    const Target by_order = attraction->step({without_ids(shuffled(seen)), 0}, unused);
+    const Target by_order = attraction->step({without_ids(shuffled(seen)), 0}, unused_plan);
     RC_ASSERT((by_order.position - target.position).norm() < 1e-3);
 
     const Transform2 turn = rotation(drawn_angle());
-    const Target by_turned = attraction->step({turned(seen, turn), 0}, unused);
+    const Target by_turned = attraction->step({turned(seen, turn), 0}, unused_plan);
     RC_ASSERT((by_turned.position - turn.rotate(target.position)).norm() < 1e-2);
   }));
 }
@@ -162,29 +159,30 @@ TEST(AttractionRepulsion, TurnsWithTheNeighboursAndIgnoresIdsPlanAndOrder) {
 // Degenerate swarms -----------------------------------------------------------------------------
 
 TEST(AttractionRepulsion, HoldsWhenItHearsNobody) {
-  const Target target = behaviour(kind)->step({{}, 0}, unused);
+  const Target target = behaviour(attraction_kind)->step({{}, 0}, unused_plan);
   EXPECT_EQ(target.reason, Reason::no_neighbour);
   EXPECT_EQ(target.position, Vector2d(0, 0));
 }
 
 TEST(AttractionRepulsion, HoldsOnTopOfANeighbour) {
-  const Target target = behaviour(kind)->step({at({{0, 0}, {200, 0}}), 0}, unused);
+  const Target target =
+      behaviour(attraction_kind)->step({neighbours_at({{0, 0}, {200, 0}}), 0}, unused_plan);
   EXPECT_EQ(target.reason, Reason::solver_failed);
   EXPECT_EQ(target.position, Vector2d(0, 0));
 }
 
 TEST(AttractionRepulsion, KeepsTheSeparationFromCoincidentNeighbours) {
-  const Target target = behaviour(kind, {{"cohesion.centroid.weight", 0.0}})
-                            ->step({at({{150, 0}, {150, 0}}), 0}, unused);
+  const Target target = behaviour(attraction_kind, {{"cohesion.centroid.weight", 0.0}})
+                            ->step({neighbours_at({{150, 0}, {150, 0}}), 0}, unused_plan);
   EXPECT_NEAR((target.position - Vector2d(150, 0)).norm(), 300.0, 0.01);
 }
 
 TEST(AttractionRepulsion, AnswersAMirroredSwarmWithTheMirroredTarget) {
-  const auto attraction = behaviour(kind);
-  const Vector2d target = attraction->step({figure37, 0}, unused).position;
+  const auto attraction = behaviour(attraction_kind);
+  const Vector2d target = attraction->step({figure37, 0}, unused_plan).position;
   Neighbours mirrored = figure37;
   for (Neighbour& n : mirrored) n.position.x() *= -1.0;
-  const Vector2d other = attraction->step({mirrored, 0}, unused).position;
+  const Vector2d other = attraction->step({mirrored, 0}, unused_plan).position;
   EXPECT_LT((other - Vector2d(-target.x(), target.y())).norm(), 1e-3);
 }
 
@@ -208,10 +206,10 @@ TEST(AttractionRepulsion, AnswersWithAFiniteTargetWhateverIsCombined) {
     for (const auto& selection : Registry<Selection>::instance().names()) {
       for (const auto& cohesion : Registry<Cohesion>::instance().names()) {
         for (const auto& solver : solvers) {
-          const auto made = behaviour(kind, {{"potential.kind", potential},
-                                             {"selection.kind", selection},
-                                             {"cohesion.kind", cohesion},
-                                             {"solver.kind", solver}});
+          const auto made = behaviour(attraction_kind, {{"potential.kind", potential},
+                                                        {"selection.kind", selection},
+                                                        {"cohesion.kind", cohesion},
+                                                        {"solver.kind", solver}});
           const Plan plan = square_lattice(4, 3, 300.0);
           for (int own = 0; own < plan.size(); own += 5) {
             const Neighbours seen = heard(plan, own, rotation(own), {40.0 - 9.0 * own, 30});
@@ -230,9 +228,10 @@ TEST(AttractionRepulsion, AnswersWithAFiniteTargetWhateverIsCombined) {
 class PotentialInABehaviour : public testing::TestWithParam<std::string> {};
 
 TEST_P(PotentialInABehaviour, KeepsTheSeparationFromASingleNeighbour) {
-  const auto made = behaviour(kind, {{"cohesion.kind", "none"}, {"potential.kind", GetParam()}});
+  const auto made =
+      behaviour(attraction_kind, {{"cohesion.kind", "none"}, {"potential.kind", GetParam()}});
   for (const Vector2d& p : {Vector2d(0, 290), Vector2d(-220, -220)}) {
-    const Target target = made->step({at({p}), 0}, unused);
+    const Target target = made->step({neighbours_at({p}), 0}, unused_plan);
     EXPECT_NEAR((target.position - p).norm(), 300.0, 0.05);
   }
 }
@@ -240,12 +239,13 @@ TEST_P(PotentialInABehaviour, KeepsTheSeparationFromASingleNeighbour) {
 TEST_P(PotentialInABehaviour, TurnsWithTheNeighboursForEverySelection) {
   for (const auto& selection : Registry<Selection>::instance().names()) {
     const auto made =
-        behaviour(kind, {{"potential.kind", GetParam()}, {"selection.kind", selection}});
+        behaviour(attraction_kind, {{"potential.kind", GetParam()}, {"selection.kind", selection}});
     // Near a minimum, where there is one answer: far from any, turning may lead to another.
     for (const double angle : {0.4, 1.9, 3.0}) {
-      const Neighbours seen = at({{-290, 25}, {-160, -265}, {155, -270}, {310, -15}, {-20, -530}});
-      const Target target = made->step({seen, 0}, unused);
-      const Target other = made->step({turned(seen, rotation(angle)), 0}, unused);
+      const Neighbours seen =
+          neighbours_at({{-290, 25}, {-160, -265}, {155, -270}, {310, -15}, {-20, -530}});
+      const Target target = made->step({seen, 0}, unused_plan);
+      const Target other = made->step({turned(seen, rotation(angle)), 0}, unused_plan);
       EXPECT_LT((other.position - rotation(angle).rotate(target.position)).norm(), 0.02)
           << selection;
     }
@@ -259,8 +259,9 @@ INSTANTIATE_TEST_SUITE_P(Potentials, PotentialInABehaviour,
 TEST(AttractionRepulsion, GoesByManyNeighboursIfTheSelectionSaysSo) {
   Neighbours crowd;
   for (int i = 0; i < 30; ++i) crowd.push_back({{200.0 + 10 * (i % 6), -60.0 + 25.0 * (i / 6)}});
-  const Target target = behaviour(kind, {{"selection.kind", "in_range"}, {"cohesion.kind", "none"}})
-                            ->step({crowd, 0}, unused);
+  const Target target =
+      behaviour(attraction_kind, {{"selection.kind", "in_range"}, {"cohesion.kind", "none"}})
+          ->step({crowd, 0}, unused_plan);
   EXPECT_EQ(target.reason, Reason::placed);
   double sum = 0.0;
   for (const Neighbour& n : crowd) {
@@ -271,13 +272,13 @@ TEST(AttractionRepulsion, GoesByManyNeighboursIfTheSelectionSaysSo) {
 }
 
 TEST(AttractionRepulsion, IsDrawnToAWaypointInTheFrameOfTheOwnPositions) {
-  const auto made = behaviour(kind, {{"cohesion.kind", "waypoint"},
-                                     {"cohesion.waypoint.x_m", 5000.0},
-                                     {"cohesion.waypoint.weight", 1e-4},
-                                     {"combination", "mean"}});
-  const Neighbours lone = at({{0, 300}});
-  const Target from_west = made->step({lone, 0, {.position = {0, 0}}}, unused);
-  const Target from_east = made->step({lone, 0, {.position = {10'000, 0}}}, unused);
+  const auto made = behaviour(attraction_kind, {{"cohesion.kind", "waypoint"},
+                                                {"cohesion.waypoint.x_m", 5000.0},
+                                                {"cohesion.waypoint.weight", 1e-4},
+                                                {"combination", "mean"}});
+  const Neighbours lone = neighbours_at({{0, 300}});
+  const Target from_west = made->step({lone, 0, {.position = {0, 0}}}, unused_plan);
+  const Target from_east = made->step({lone, 0, {.position = {10'000, 0}}}, unused_plan);
   EXPECT_GT(from_west.position.x(), 10.0);
   EXPECT_LT((from_east.position - Vector2d(-from_west.position.x(), from_west.position.y())).norm(),
             0.01);
@@ -288,36 +289,37 @@ TEST(AttractionRepulsion, IsDrawnToAWaypointInTheFrameOfTheOwnPositions) {
 // A spring of 0.5 / m to a neighbour at 200 m, 100 m too near: k (100 + y) + d y = 0.
 TEST(AttractionRepulsion, GoesPartOfTheWayIfItIsDamped) {
   for (const double damping : {0.0, 0.5, 2.0, 4.5}) {
-    const Target target = behaviour(kind, {{"cohesion.kind", "none"},
-                                           {"potential.kind", "virtual_spring"},
-                                           {"potential.virtual_spring.stiffness_per_m", 0.5},
-                                           {"damping_per_m", damping}})
-                              ->step({at({{0, 200}}), 0}, unused);
+    const Target target =
+        behaviour(attraction_kind, {{"cohesion.kind", "none"},
+                                    {"potential.kind", "virtual_spring"},
+                                    {"potential.virtual_spring.stiffness_per_m", 0.5},
+                                    {"damping_per_m", damping}})
+            ->step({neighbours_at({{0, 200}}), 0}, unused_plan);
     EXPECT_LT((target.position - Vector2d(0, -100 * 0.5 / (0.5 + damping))).norm(), 1e-3);
   }
 }
 
 std::unique_ptr<Behaviour> for_squares(const std::string& potential = "thesis") {
-  return behaviour(kind, {{"lattice", "squares"},
-                          {"selection.kind", "in_range"},
-                          {"cohesion.kind", "none"},
-                          {"contact_rangeout_m", 510.0},
-                          {"potential.kind", potential}});
+  return behaviour(attraction_kind, {{"lattice", "squares"},
+                                     {"selection.kind", "in_range"},
+                                     {"cohesion.kind", "none"},
+                                     {"contact_rangeout_m", 510.0},
+                                     {"potential.kind", potential}});
 }
 
 TEST(AttractionRepulsion, KeepsLikeVehiclesOnTheDiagonalOfASquare) {
   const auto made = for_squares();
   const auto distance = [&](int slot) {
     const Neighbours seen{{{0, 400}, 0.0, slot}};
-    return (made->step({seen, 2}, unused).position - seen[0].position).norm();
+    return (made->step({seen, 2}, unused_plan).position - seen[0].position).norm();
   };
   EXPECT_NEAR(distance(3), 300.0, 0.01);
   EXPECT_NEAR(distance(1), 300.0, 0.01);
   EXPECT_NEAR(distance(4), 300.0 * std::sqrt(2.0), 0.01);
   EXPECT_NEAR(distance(0), 300.0 * std::sqrt(2.0), 0.01);
   EXPECT_TRUE(made->needs_ids());
-  EXPECT_FALSE(behaviour(kind)->needs_ids());
-  EXPECT_EQ(made->step({at({{0, 400}}), 2}, unused).reason, Reason::no_neighbour);
+  EXPECT_FALSE(behaviour(attraction_kind)->needs_ids());
+  EXPECT_EQ(made->step({neighbours_at({{0, 400}}), 2}, unused_plan).reason, Reason::no_neighbour);
 }
 
 TEST_P(PotentialInABehaviour, ReturnsToItsPlaceInALatticeOfSquares) {
@@ -341,7 +343,7 @@ std::string complaint(std::initializer_list<std::pair<const char*, Setting>> opt
   Setting table;
   for (const auto& [path, value] : options) assign(table, path, value);
   try {
-    Registry<Behaviour>::instance().make(kind, table, "behaviour");
+    Registry<Behaviour>::instance().make(attraction_kind, table, "behaviour");
   } catch (const InputError& error) {
     return error.what();
   }

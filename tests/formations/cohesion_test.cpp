@@ -15,7 +15,7 @@ std::unique_ptr<Cohesion> cohesion(const std::string& kind, Table options = {}) 
   return Registry<Cohesion>::instance().make(kind, table, "test");
 }
 
-const Neighbours triangle{{{300, 0}}, {{0, 600}}, {{-600, 0}}};
+const Neighbours three_neighbours{{{300, 0}}, {{0, 600}}, {{-600, 0}}};
 
 class EnrolledCohesion : public testing::TestWithParam<std::string> {
  protected:
@@ -46,11 +46,12 @@ TEST_P(EnrolledCohesion, IsLeastAtItsAnchor) {
 TEST_P(EnrolledCohesion, HasAnAnchorThatTurnsWithTheWorldWhateverTheOrder) {
   const Transform2 turn = rotation(0.7);
   const Vector2d own(500, 100);
-  const Vector2d anchor = made->anchor(triangle, own);
+  const Vector2d anchor = made->anchor(three_neighbours, own);
   EXPECT_TRUE(anchor.allFinite());
-  EXPECT_LT((made->anchor(turned(triangle, turn), turn.rotate(own)) - turn.rotate(anchor)).norm(),
-            1e-9);
-  const Neighbours reversed(triangle.rbegin(), triangle.rend());
+  EXPECT_LT(
+      (made->anchor(turned(three_neighbours, turn), turn.rotate(own)) - turn.rotate(anchor)).norm(),
+      1e-9);
+  const Neighbours reversed(three_neighbours.rbegin(), three_neighbours.rend());
   EXPECT_LT((made->anchor(reversed, own) - anchor).norm(), 1e-9);
 }
 
@@ -65,16 +66,16 @@ TEST(NoCohesion, IsNothing) {
 
 TEST(Centroid, IsThatOfTheNeighboursOrOfAll) {
   const Vector2d own(1e6, 1e6);  // does not matter
-  EXPECT_EQ(cohesion("centroid")->anchor(triangle, own), Vector2d(-100, 200));
-  EXPECT_EQ(cohesion("centroid", {{"counts_own", true}})->anchor(triangle, own),
+  EXPECT_EQ(cohesion("centroid")->anchor(three_neighbours, own), Vector2d(-100, 200));
+  EXPECT_EQ(cohesion("centroid", {{"counts_own", true}})->anchor(three_neighbours, own),
             Vector2d(-75, 150));
   EXPECT_DOUBLE_EQ(cohesion("centroid")->at({300, 400}).value, 1e-5 * 250'000.0);
 }
 
 TEST(Waypoint, IsTheSamePlaceFromEverywhere) {
   const auto waypoint = cohesion("waypoint", {{"x_m", 1000.0}, {"y_m", -50.0}, {"weight", 2.0}});
-  EXPECT_EQ(waypoint->anchor(triangle, {0, 0}), Vector2d(1000, -50));
-  EXPECT_EQ(waypoint->anchor(triangle, {900, 50}), Vector2d(100, -100));
+  EXPECT_EQ(waypoint->anchor(three_neighbours, {0, 0}), Vector2d(1000, -50));
+  EXPECT_EQ(waypoint->anchor(three_neighbours, {900, 50}), Vector2d(100, -100));
   EXPECT_DOUBLE_EQ(waypoint->at({3, 4}).value, 50.0);
   EXPECT_EQ(waypoint->at({3, 4}).gradient, Vector2d(12, 16));
 }

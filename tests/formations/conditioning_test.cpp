@@ -14,7 +14,7 @@ namespace {
 
 using Eigen::Vector2d;
 
-constexpr double T = 0.5;
+constexpr double usual_period_s = 0.5;
 const PerformanceEnvelope usual;
 
 struct Case {
@@ -49,7 +49,7 @@ class Cases {
 };
 
 TEST(ConditioningReference, AgreesWithAnotherImplementation) {
-  const tests::ReferenceTable table(
+  const shoal::tests::ReferenceTable table(
       "force_clamp.csv", {"f_par", "f_perp", "u_prev", "r_prev", "T", "u_max", "du_max", "r_max",
                           "dr_max", "u_cmd", "dpsi_cmd", "f_par_out", "f_perp_out"});
   ASSERT_EQ(table.rows(), 100u);
@@ -137,22 +137,22 @@ TEST(Conditioning, DoesTheMirrorImageForTheMirroredInput) {
 
 // 1 m/s and 0.5 s: the velocity over the period is 2 m/s2 ahead, and may become 1.95 to 2.05.
 TEST(Conditioning, AcceleratesAsFastAsItMayStraightAhead) {
-  const auto command = conditioned({3, 0}, {1, 0}, T, usual);
+  const auto command = conditioned({3, 0}, {1, 0}, usual_period_s, usual);
   EXPECT_NEAR(command.speed_m_s, 1.025, 1e-15);
   EXPECT_EQ(command.turn_rad, 0.0);
   EXPECT_NEAR(command.force.x(), 0.05, 1e-15);
 }
 
 TEST(Conditioning, BrakesNoFasterThanItMayAndNeverGoesAstern) {
-  EXPECT_NEAR(conditioned({-3, 0}, {1, 0}, T, usual).speed_m_s, 0.975, 1e-15);
-  const auto stopping = conditioned({-3, 0}, {0.01, 0}, T, usual);
+  EXPECT_NEAR(conditioned({-3, 0}, {1, 0}, usual_period_s, usual).speed_m_s, 0.975, 1e-15);
+  const auto stopping = conditioned({-3, 0}, {0.01, 0}, usual_period_s, usual);
   EXPECT_EQ(stopping.speed_m_s, 0.0);
   EXPECT_NEAR(stopping.force.x(), -0.02, 1e-15);
 }
 
 TEST(Conditioning, ClosesTheEnvelopeOnOneSideWhileTheVehicleTurns) {
   // T r +- T^2 r' = 0.03 +- 0.01, and T r_max = 0.04: C57, C59.
-  const AdmissibleSet set(usual, {1, 0.06}, T);
+  const AdmissibleSet set(usual, {1, 0.06}, usual_period_s);
   EXPECT_NEAR(set.turn_min_rad, 0.02, 1e-15);
   EXPECT_NEAR(set.turn_max_rad, 0.04, 1e-15);
   EXPECT_NEAR(set.size_min_m_s2, 1.95, 1e-15);
@@ -163,11 +163,11 @@ TEST(Conditioning, ClosesTheEnvelopeOnOneSideWhileTheVehicleTurns) {
 TEST(Conditioning, ProjectsOntoTheLimitingRayIfItAcceleratesElseKeepsTheSpeedAlongTheHeading) {
   // s = (2.02, 0.2): rho = 2.0299, delta = 0.0987; the turn is limited to 0.01 from rest.
   const double turn = 0.01;
-  const auto fast = conditioned({0.02, 0.2}, {1, 0}, T, usual);
+  const auto fast = conditioned({0.02, 0.2}, {1, 0}, usual_period_s, usual);
   EXPECT_NEAR(fast.turn_rad, turn, 1e-15);
   EXPECT_NEAR(fast.force.x() + 2.0, (2.02 * std::cos(turn) + 0.2 * std::sin(turn)) * std::cos(turn),
               1e-14);
-  const auto slow = conditioned({-0.02, 0.2}, {1, 0}, T, usual);
+  const auto slow = conditioned({-0.02, 0.2}, {1, 0}, usual_period_s, usual);
   EXPECT_NEAR(slow.turn_rad, turn, 1e-15);
   EXPECT_NEAR(slow.force.x(), -0.02, 1e-15);
   EXPECT_NEAR(slow.force.y(), 1.98 * std::tan(turn), 1e-15);
@@ -175,16 +175,16 @@ TEST(Conditioning, ProjectsOntoTheLimitingRayIfItAcceleratesElseKeepsTheSpeedAlo
 
 TEST(Conditioning, SaysSoIfNoCommandReachesTheEnvelope) {
   for (const Motion& motion : {Motion{2.1, 0}, Motion{-0.1, 0}, Motion{1, 0.2}, Motion{1, -0.2}}) {
-    const auto command = conditioned({0.01, 0.01}, motion, T, usual);
+    const auto command = conditioned({0.01, 0.01}, motion, usual_period_s, usual);
     EXPECT_FALSE(command.reachable);
     EXPECT_LE(command.speed_m_s, 2.0 + 1e-15);
     EXPECT_GE(command.speed_m_s, 0.0);
     EXPECT_LE(std::abs(command.turn_rate_rad_s), 0.08 + 1e-15);
   }
-  EXPECT_EQ(conditioned({0, 0}, {1, 0.2}, T, usual).turn_rad,
-            -conditioned({0, 0}, {1, -0.2}, T, usual).turn_rad);
+  EXPECT_EQ(conditioned({0, 0}, {1, 0.2}, usual_period_s, usual).turn_rad,
+            -conditioned({0, 0}, {1, -0.2}, usual_period_s, usual).turn_rad);
   // Just within reach.
-  EXPECT_TRUE(conditioned({0, 0}, {2.024, 0.09}, T, usual).reachable);
+  EXPECT_TRUE(conditioned({0, 0}, {2.024, 0.09}, usual_period_s, usual).reachable);
 }
 
 TEST(PerformanceEnvelope, RefusesASpeedThatIsLeastAboveTheGreatest) {

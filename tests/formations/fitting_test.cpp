@@ -20,9 +20,6 @@ using namespace tests;
 using solvers::Loss;
 using solvers::Solver;
 
-const std::string rigid_kind = "rigid_registration";
-const std::string pairwise_kind = "pairwise_referencing";
-
 std::unique_ptr<Behaviour> fitting(const std::string& kind, const std::string& loss,
                                    const std::string& weighting, double rangeout_m = 1e4) {
   if (kind == pairwise_kind) {

@@ -24,33 +24,33 @@ std::string complaint(const std::string& text) {
   return "";
 }
 
-double value(const std::string& text, double r = 2.0, double s = 3.0) {
+double value_of(const std::string& text, double r = 2.0, double s = 3.0) {
   return Formula(text).value(r, s);
 }
 
 TEST(Formula, IsReadAsItIsWritten) {
-  EXPECT_EQ(value("r + 2*3"), 8.0);
-  EXPECT_EQ(value("2^3^2 + r - r"), 512.0);
-  EXPECT_EQ(value("-r^2"), -4.0);
-  EXPECT_EQ(value("r^-2"), 0.25);
-  EXPECT_EQ(value("8/r/2"), 2.0);
-  EXPECT_EQ(value("8 - r - 1"), 5.0);
-  EXPECT_EQ(value("--r+-+r"), 0.0);
-  EXPECT_EQ(value(" ( r\t+ s ) *2\n"), 10.0);
-  EXPECT_EQ(value("1.5e1*r + .5"), 30.5);
-  EXPECT_EQ(value("cos(pi)*r"), -2.0);
-  EXPECT_EQ(value("min(r, s) + 10*max(r, s) + abs(r - s)"), 33.0);
-  EXPECT_EQ(value("pow(r, 3) + r^0.5"), 8.0 + std::sqrt(2.0));
-  EXPECT_EQ(value("s^3/(2*r^2) + r - 3*s", 150.0, 300.0), -150.0);
+  EXPECT_EQ(value_of("r + 2*3"), 8.0);
+  EXPECT_EQ(value_of("2^3^2 + r - r"), 512.0);
+  EXPECT_EQ(value_of("-r^2"), -4.0);
+  EXPECT_EQ(value_of("r^-2"), 0.25);
+  EXPECT_EQ(value_of("8/r/2"), 2.0);
+  EXPECT_EQ(value_of("8 - r - 1"), 5.0);
+  EXPECT_EQ(value_of("--r+-+r"), 0.0);
+  EXPECT_EQ(value_of(" ( r\t+ s ) *2\n"), 10.0);
+  EXPECT_EQ(value_of("1.5e1*r + .5"), 30.5);
+  EXPECT_EQ(value_of("cos(pi)*r"), -2.0);
+  EXPECT_EQ(value_of("min(r, s) + 10*max(r, s) + abs(r - s)"), 33.0);
+  EXPECT_EQ(value_of("pow(r, 3) + r^0.5"), 8.0 + std::sqrt(2.0));
+  EXPECT_EQ(value_of("s^3/(2*r^2) + r - 3*s", 150.0, 300.0), -150.0);
 }
 
-struct Case {
+struct FormulaCase {
   const char* text;
   double (*cpp)(double r, double s);
 };
 
 /// Every function, and what GiNaC might simplify: beside the same in C++ and its differences.
-const std::vector<Case> cases{
+const std::vector<FormulaCase> cases{
     {"s^3/(2*r^2) + r - 3*s",
      [](double r, double s) { return s * s * s / (2 * r * r) + r - 3 * s; }},
     {"s^3/r^3.5 - (s/r)^64",
@@ -76,7 +76,7 @@ const std::vector<Case> cases{
 };
 
 TEST(Formula, HasTheValueAndTheDerivativesOfTheSameInCpp) {
-  for (const Case& c : cases) {
+  for (const FormulaCase& c : cases) {
     const Formula formula(c.text);
     for (const double r : {0.7, 2.3, 4.9}) {
       const double s = 2.9;
@@ -112,7 +112,7 @@ TEST(Formula, HasNoSlopeWhereItIsConstant) {
 }
 
 TEST(Formula, GivesTheSameBitsPreparedOrNotAndMadeAgain) {
-  for (const Case& c : cases) {
+  for (const FormulaCase& c : cases) {
     const Formula once(c.text);
     Formula again(c.text);
     again.prepare(2.9);
@@ -212,7 +212,7 @@ TEST(Formula, IsReadAndEvaluatedByManyThreadsAtOnce) {
     std::vector<std::thread> threads;
     for (auto& result : results) {
       threads.emplace_back([&result] {
-        for (const Case& c : cases) {
+        for (const FormulaCase& c : cases) {
           const RadialValue f = Formula(c.text).derivatives(2.3, 2.9);
           result.insert(result.end(), {f.value, f.slope, f.curvature});
         }
@@ -225,13 +225,13 @@ TEST(Formula, IsReadAndEvaluatedByManyThreadsAtOnce) {
 
 TEST(Formula, AllocatesNothingWhenItIsEvaluated) {
   Formula formula("min(s^3/(2*r^2), exp(r/s)) + r^2.5");
-  const auto before = tests::allocations();
+  const auto before = shoal::tests::allocations();
   double sum = formula.derivatives(2.0, 3.0).slope + formula.value(3.0, 3.0);
-  EXPECT_EQ(tests::allocations() - before, 0u);
+  EXPECT_EQ(shoal::tests::allocations() - before, 0u);
   formula.prepare(3.0);
-  const auto prepared = tests::allocations();
+  const auto prepared = shoal::tests::allocations();
   sum += formula.derivatives(2.0, 3.0).slope + formula.value(3.0, 3.0);
-  EXPECT_EQ(tests::allocations() - prepared, 0u);
+  EXPECT_EQ(shoal::tests::allocations() - prepared, 0u);
   EXPECT_TRUE(std::isfinite(sum));
 }
 

@@ -17,7 +17,7 @@ struct Pilot {
   Command to(double x, double y) { return guidance.command({x, y}, state); }
 };
 
-Setting table(std::initializer_list<std::pair<const char*, double>> entries) {
+Setting options_of(std::initializer_list<std::pair<const char*, double>> entries) {
   Setting setting;
   for (const auto& [name, x] : entries) setting.at_or_new(name).value = x;
   return setting;
@@ -132,11 +132,12 @@ TEST(DriftGuidance, JudgesDistanceByTheAveragedTarget) {
 }
 
 TEST(DriftGuidance, ComplainsOfRadiiThatDoNotGrow) {
-  EXPECT_EQ(complaint(table({})), "");
-  EXPECT_EQ(complaint(table({{"capture_radius_m", 3}, {"slip_radius_m", 3}})), "");
-  for (const Setting& wrong : {table({{"capture_radius_m", 11}}), table({{"slip_radius_m", 21}}),
-                               table({{"drifting_radius_m", 9}}),
-                               table({{"capture_radius_m", 20}, {"slip_radius_m", 20}})}) {
+  EXPECT_EQ(complaint(options_of({})), "");
+  EXPECT_EQ(complaint(options_of({{"capture_radius_m", 3}, {"slip_radius_m", 3}})), "");
+  for (const Setting& wrong :
+       {options_of({{"capture_radius_m", 11}}), options_of({{"slip_radius_m", 21}}),
+        options_of({{"drifting_radius_m", 9}}),
+        options_of({{"capture_radius_m", 20}, {"slip_radius_m", 20}})}) {
     EXPECT_EQ(complaint(wrong),
               "guidance: the radii must grow: capture_radius_m <= slip_radius_m <= "
               "drifting_radius_m");

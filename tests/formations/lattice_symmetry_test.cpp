@@ -4,18 +4,14 @@
 
 #include "shoal/core/angles.hpp"
 #include "shoal/core/transform.hpp"
+#include "tests/formations/swarm.hpp"
 
 namespace shoal::formations {
 namespace {
 
 using Eigen::Vector2d;
 using Slots = std::vector<Vector2d>;
-
-Plan plan_of(const Slots& slots) {
-  std::vector<std::string> names;
-  for (std::size_t i = 0; i < slots.size(); ++i) names.push_back(std::to_string(i));
-  return {names, slots};
-}
+using tests::plan_of;
 
 Slots lattice(int side, const Vector2d& first, const Vector2d& second) {
   Slots slots;
@@ -25,20 +21,20 @@ Slots lattice(int side, const Vector2d& first, const Vector2d& second) {
   return slots;
 }
 
-const Vector2d east(1.0, 0.0), north(0.0, 1.0), at_60_deg(0.5, std::sqrt(0.75));
+const Vector2d eastward(1.0, 0.0), northward(0.0, 1.0), at_60_deg(0.5, std::sqrt(0.75));
 
 TEST(LatticeSymmetry, IsSixOfAHexagonalLattice) {
-  EXPECT_EQ(lattice_symmetry(plan_of(lattice(4, east, at_60_deg))), 6);
+  EXPECT_EQ(lattice_symmetry(plan_of(lattice(4, eastward, at_60_deg))), 6);
 }
 
 TEST(LatticeSymmetry, IsFourOfASquareLattice) {
-  EXPECT_EQ(lattice_symmetry(plan_of(lattice(4, east, north))), 4);
-  EXPECT_EQ(lattice_symmetry(plan_of(lattice(2, east, north))), 4);
+  EXPECT_EQ(lattice_symmetry(plan_of(lattice(4, eastward, northward))), 4);
+  EXPECT_EQ(lattice_symmetry(plan_of(lattice(2, eastward, northward))), 4);
 }
 
 TEST(LatticeSymmetry, IsTwoWhereBondsLieAlongOneLine) {
   EXPECT_EQ(lattice_symmetry(plan_of({{0, 0}, {300, 0}, {600, 0}})), 2);
-  EXPECT_EQ(lattice_symmetry(plan_of(lattice(3, east, 2.0 * north))), 2);
+  EXPECT_EQ(lattice_symmetry(plan_of(lattice(3, eastward, 2.0 * northward))), 2);
 }
 
 TEST(LatticeSymmetry, IsOneOfASingleSlot) {
@@ -48,8 +44,8 @@ TEST(LatticeSymmetry, IsOneOfASingleSlot) {
 TEST(LatticeSymmetry, DoesNotDependOnThePoseOfThePlanOrTheOrderOfItsSlots) {
   for (int turn = 0; turn < 36; ++turn) {
     const Transform2 T = Transform2::from_angle(radians(10.0 * turn + 3.0), {1e4, -2e4});
-    for (const auto& [second, order] : {std::pair{at_60_deg, 6}, std::pair{north, 4}}) {
-      Slots slots = lattice(5, east, second);
+    for (const auto& [second, order] : {std::pair{at_60_deg, 6}, std::pair{northward, 4}}) {
+      Slots slots = lattice(5, eastward, second);
       std::ranges::rotate(slots, slots.begin() + turn % 25);
       for (Vector2d& slot : slots) slot = T * slot;
       EXPECT_EQ(lattice_symmetry(plan_of(slots)), order) << turn;

@@ -67,7 +67,7 @@ const Shapes shapes[] = {
 };
 
 /// Places around the origin, inside and out, off the axes.
-Points places() {
+Points places_around() {
   Points all;
   for (int i = 0; i < 40; ++i) {
     const double angle = 0.3 + 2.4 * i;
@@ -81,7 +81,7 @@ class EveryShape : public testing::TestWithParam<Shapes> {};
 
 TEST_P(EveryShape, HasNoPointOfItsEdgeNearerThanTheNearest) {
   const auto shape = GetParam().at({0, 0}, 0.0);
-  for (const Vector2d& place : places()) {
+  for (const Vector2d& place : places_around()) {
     double least = std::numeric_limits<double>::infinity();
     for (int i = 0; i < 20'000; ++i) {
       least = std::min(least, (GetParam().edge(i / 20'000.0) - place).norm());
@@ -97,7 +97,7 @@ TEST_P(EveryShape, HasNoDistanceOnItsEdge) {
   for (int i = 0; i < 1000; ++i) {
     EXPECT_NEAR(shape->nearest(GetParam().edge(i / 1000.0)).distance, 0.0, 1e-13);
   }
-  for (const Vector2d& place : places()) {
+  for (const Vector2d& place : places_around()) {
     const Vector2d foot = shape->nearest(place).closest(place);
     EXPECT_NEAR(shape->nearest(foot).distance, 0.0, 1e-13);
   }
@@ -105,7 +105,7 @@ TEST_P(EveryShape, HasNoDistanceOnItsEdge) {
 
 TEST_P(EveryShape, HasTheNormalAsGradientAndTheCurvatureAsHessianOfItsDistance) {
   const auto shape = GetParam().at({3, -4}, 0.6);
-  for (const Vector2d& relative : places()) {
+  for (const Vector2d& relative : places_around()) {
     const Vector2d place = relative + Vector2d(3, -4);
     const Proximity near = shape->nearest(place);
     EXPECT_NEAR(near.normal.norm(), 1.0, 1e-14);
@@ -139,7 +139,7 @@ TEST_P(EveryShape, IsMovedAndTurnedWithTheWorld) {
   const Transform2 T_world_shape = Transform2::from_angle(-2.2, {310, -45});
   const auto there = GetParam().at(T_world_shape.translation, -2.2);
   EXPECT_EQ(there->centre(), T_world_shape.translation);
-  for (const Vector2d& place : places()) {
+  for (const Vector2d& place : places_around()) {
     const Proximity a = here->nearest(place);
     const Proximity b = there->nearest(T_world_shape * place);
     EXPECT_NEAR(a.distance, b.distance, 1e-12);
@@ -254,7 +254,7 @@ TEST(Ellipse, IsContinuousAcrossItsLongerAxis) {
 TEST(Ellipse, IsACircleIfItsAxesAreEqual) {
   const Ellipse ellipse({1, 2}, 9, 9, 0.3);
   const Circle circle({1, 2}, 9);
-  for (const Vector2d& place : places()) {
+  for (const Vector2d& place : places_around()) {
     EXPECT_NEAR(ellipse.nearest(place).distance, circle.nearest(place).distance, 1e-13);
     EXPECT_LT((ellipse.nearest(place).normal - circle.nearest(place).normal).norm(), 1e-13);
   }

@@ -12,18 +12,17 @@ namespace {
 
 using namespace tests;
 
-const char* const kind = "pair_forces";
-const Plan unused = plan_of({{0, 0}});
+const char* const pair_forces_kind = "pair_forces";
 
 // One vehicle, computed by hand -------------------------------------------------------------------
 
 Vector2d force(const Behaviour& made, const Neighbours& seen, const OwnState& own = {},
                int slot = 0) {
-  return *made.step({seen, slot, own}, unused).force_m_s2;
+  return *made.step({seen, slot, own}, unused_plan).force_m_s2;
 }
 
 TEST(PairForces, AreThoseOfPhysicomimeticsWithFriction) {
-  const auto made = behaviour(kind, {{"strength_m_s2", 0.02}, {"friction_per_s", 0.1}});
+  const auto made = behaviour(pair_forces_kind, {{"strength_m_s2", 0.02}, {"friction_per_s", 0.1}});
   // (300 / 400)^2 towards the one, (300 / 250)^2 away from the other.
   const Neighbours seen{{{400, 0}, 0.0, 1}, {{0, 250}, 0.0, 2}};
   EXPECT_LT((force(*made, seen) - 0.02 * Vector2d(0.5625, -1.44)).norm(), 1e-12);
@@ -34,35 +33,37 @@ TEST(PairForces, AreThoseOfPhysicomimeticsWithFriction) {
 }
 
 TEST(PairForces, EndAtTheRangeOfTheSource) {
-  const auto made = behaviour(kind);
+  const auto made = behaviour(pair_forces_kind);
   EXPECT_GT(force(*made, {{{449.9, 0}, 0.0, 1}}).x(), 0.0);
-  EXPECT_EQ(made->step({Neighbours{{{450.1, 0}, 0.0, 1}}, 0}, unused).reason, Reason::no_neighbour);
+  EXPECT_EQ(made->step({Neighbours{{{450.1, 0}, 0.0, 1}}, 0}, unused_plan).reason,
+            Reason::no_neighbour);
 }
 
 TEST(PairForces, TakeTheDistanceOfLikeVehiclesOverTheRootOfTwoForSquares) {
-  const auto made = behaviour(kind, {{"lattice", "squares"}, {"contact_rangeout_m", 510.0}});
+  const auto made =
+      behaviour(pair_forces_kind, {{"lattice", "squares"}, {"contact_rangeout_m", 510.0}});
   EXPECT_NEAR(force(*made, {{{500, 0}, 0.0, 2}}).x(), 0.01 * 0.72, 1e-12);  // 2 (300 / 500)^2
   EXPECT_NEAR(force(*made, {{{500, 0}, 0.0, 1}}).x(), 0.01 * 0.36, 1e-12);
   EXPECT_NEAR(force(*made, {{{400, 0}, 0.0, 2}}).x(), -0.01 * 1.125, 1e-12);  // 2 (300 / 400)^2
   EXPECT_NEAR(force(*made, {{{400, 0}, 0.0, 3}}, {}, 1).x(), -0.01 * 1.125, 1e-12);
   EXPECT_NEAR(force(*made, {{{300 * std::sqrt(2.0), 0}, 0.0, 2}}).x(), 0.0, 1e-12);
   EXPECT_TRUE(made->needs_ids());
-  EXPECT_EQ(made->step({Neighbours{{{300, 0}, 0.0, anonymous}}, 0}, unused).reason,
+  EXPECT_EQ(made->step({Neighbours{{{300, 0}, 0.0, anonymous}}, 0}, unused_plan).reason,
             Reason::no_neighbour);
 }
 
 TEST(PairForces, HaveNoDirectionOnTopOfANeighbour) {
   const Neighbours seen{{{0, 0}, 0.0, 1}};
-  EXPECT_EQ(behaviour(kind)->step({seen, 0}, unused).reason, Reason::degenerate);
+  EXPECT_EQ(behaviour(pair_forces_kind)->step({seen, 0}, unused_plan).reason, Reason::degenerate);
 }
 
 class LatticeOfPairForces : public testing::TestWithParam<std::string> {};
 
 TEST_P(LatticeOfPairForces, AreTheGradientOfTheCost) {
-  const auto made = behaviour(kind, {{"lattice", GetParam()},
-                                     {"potential.kind", "thesis"},
-                                     {"contact_rangeout_m", 1e4},
-                                     {"strength_m_s2", 1.0}});
+  const auto made = behaviour(pair_forces_kind, {{"lattice", GetParam()},
+                                                 {"potential.kind", "thesis"},
+                                                 {"contact_rangeout_m", 1e4},
+                                                 {"strength_m_s2", 1.0}});
   EXPECT_TRUE(rc::check("central differences", [&] {
     const Plan plan = drawn_plan(2, 8);
     const int own = drawn_int(0, plan.size() - 1);
@@ -80,7 +81,8 @@ TEST_P(LatticeOfPairForces, AreTheGradientOfTheCost) {
 }
 
 TEST_P(LatticeOfPairForces, TurnWithTheSwarm) {
-  const auto made = behaviour(kind, {{"lattice", GetParam()}, {"contact_rangeout_m", 1e4}});
+  const auto made =
+      behaviour(pair_forces_kind, {{"lattice", GetParam()}, {"contact_rangeout_m", 1e4}});
   EXPECT_TRUE(rc::check("and with the own velocity", [&] {
     const Plan plan = drawn_plan(2, 8);
     const Neighbours seen = heard(plan, 0);
@@ -163,7 +165,7 @@ class Particles {
     for (std::size_t j = 0; j < at.size(); ++j) {
       if (j != i) seen.push_back({at[j] - at[i], 0.0, static_cast<int>(j)});
     }
-    return behaviour_->step({seen, static_cast<int>(i), {.velocity = speed[i]}}, unused);
+    return behaviour_->step({seen, static_cast<int>(i), {.velocity = speed[i]}}, unused_plan);
   }
 
   Points places_, velocities_;
@@ -189,10 +191,11 @@ class ClosedSwarm : public testing::TestWithParam<std::tuple<const char*, const 
 
 TEST_P(ClosedSwarm, ConservesItsEnergyAndMomentumWithoutFriction) {
   const auto [potential, lattice] = GetParam();
-  const std::shared_ptr<const Behaviour> made = behaviour(kind, {{"potential.kind", potential},
-                                                                 {"lattice", lattice},
-                                                                 {"contact_rangeout_m", 1e5},
-                                                                 {"friction_per_s", 0.0}});
+  const std::shared_ptr<const Behaviour> made =
+      behaviour(pair_forces_kind, {{"potential.kind", potential},
+                                   {"lattice", lattice},
+                                   {"contact_rangeout_m", 1e5},
+                                   {"friction_per_s", 0.0}});
   Particles swarm(scattered(lattice_of(3, 2), 90.0, 5), made);
   const double energy = swarm.potential(0.01);
   double moving = 0.0;
@@ -207,10 +210,11 @@ TEST_P(ClosedSwarm, ConservesItsEnergyAndMomentumWithoutFriction) {
 
 TEST_P(ClosedSwarm, LosesEnergyToFrictionAllTheTimeAndComesToRest) {
   const auto [potential, lattice] = GetParam();
-  const std::shared_ptr<const Behaviour> made = behaviour(kind, {{"potential.kind", potential},
-                                                                 {"lattice", lattice},
-                                                                 {"contact_rangeout_m", 1e5},
-                                                                 {"friction_per_s", 0.05}});
+  const std::shared_ptr<const Behaviour> made =
+      behaviour(pair_forces_kind, {{"potential.kind", potential},
+                                   {"lattice", lattice},
+                                   {"contact_rangeout_m", 1e5},
+                                   {"friction_per_s", 0.05}});
   Particles swarm(scattered(lattice_of(3, 2), 90.0, 5), made);
   double energy = swarm.potential(0.01), lost = 0.0, moving = 0.0;
   const double from = energy;
@@ -257,7 +261,8 @@ double order(const Points& places, int fold) {
 }
 
 Particles after(int seconds, const Points& start, const char* lattice, double range_m) {
-  Particles swarm(start, behaviour(kind, {{"lattice", lattice}, {"contact_rangeout_m", range_m}}));
+  Particles swarm(
+      start, behaviour(pair_forces_kind, {{"lattice", lattice}, {"contact_rangeout_m", range_m}}));
   for (int k = 0; k < seconds; ++k) swarm.advance(1.0);
   return swarm;
 }

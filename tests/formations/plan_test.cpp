@@ -9,12 +9,14 @@
 #include <sstream>
 
 #include "shoal/core/text.hpp"
+#include "tests/support/complaint_of.hpp"
 #include "tests/support/shared_data.hpp"
 
 namespace shoal::formations {
 namespace {
 
 using Eigen::Vector2d;
+using shoal::tests::complaint_of;
 
 Setting table(std::initializer_list<std::pair<std::string, Setting>> entries) {
   Setting setting;
@@ -50,16 +52,6 @@ Plan nodes(const std::vector<std::string>& texts) {
   return source("nodes", table({{"nodes", value(list)}}))->plan();
 }
 
-template <class Act>
-std::string complaint(Act act) {
-  try {
-    act();
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "";
-}
-
 Vector2d mean(const Plan& plan) {
   Vector2d sum = Vector2d::Zero();
   for (const Vector2d& slot : plan.slots()) sum += slot;
@@ -83,43 +75,43 @@ TEST(Plan, FindsEverySlotByItsName) {
 
 TEST(Plan, NamesTheMissingSlotAndTheKnownOnes) {
   const Plan plan({"b", "c", "a"}, {{0, 0}, {1, 0}, {2, 0}});
-  EXPECT_EQ(complaint([&] {
+  EXPECT_EQ(complaint_of([&] {
               plan.index_of("NODE_9", {"s.toml", 3});
             }),
             "s.toml:3: the plan has no slot named \"NODE_9\"; it has b, c and a");
   const Plan big = lattice("square", 20, 20, 300)->plan();
-  const std::string long_one = complaint([&] { big.index_of("x"); });
+  const std::string long_one = complaint_of([&] { big.index_of("x"); });
   EXPECT_NE(long_one.find("NODE_24 and 376 more"), std::string::npos) << long_one;
 }
 
 TEST(Plan, RefusesDuplicateNamesCoincidentSlotsAndNoSlots) {
   const Origin here{"p.toml", 2};
-  EXPECT_EQ(complaint([&] {
+  EXPECT_EQ(complaint_of([&] {
               Plan({"a", "b", "a"}, {{0, 0}, {1, 0}, {2, 0}}, here);
             }),
             "p.toml:2: the plan has two slots named a; every vehicle needs one slot of its own");
-  EXPECT_EQ(complaint([&] {
+  EXPECT_EQ(complaint_of([&] {
               Plan({"a", "b", "c"}, {{5, 0}, {1, 0}, {5, 0.0009}}, here);
             }),
             "p.toml:2: slots a and c of the plan are at the same place, (5, 0) m; move one of "
             "them");
-  EXPECT_NE(complaint([&] { Plan({}, {}, here); }), "");
-  EXPECT_NE(complaint([&] { Plan({"a"}, {}, here); }), "");
-  EXPECT_NE(complaint([&] { Plan({""}, {{0, 0}}, here); }), "");
-  EXPECT_EQ(complaint([&] { Plan({"a", "b"}, {{0, 0}, {0.0011, 0}}, here); }), "");
+  EXPECT_NE(complaint_of([&] { Plan({}, {}, here); }), "");
+  EXPECT_NE(complaint_of([&] { Plan({"a"}, {}, here); }), "");
+  EXPECT_NE(complaint_of([&] { Plan({""}, {{0, 0}}, here); }), "");
+  EXPECT_EQ(complaint_of([&] { Plan({"a", "b"}, {{0, 0}, {0.0011, 0}}, here); }), "");
 }
 
 TEST(Plan, RefusesSlotsThatAreNotFinite) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   const double inf = std::numeric_limits<double>::infinity();
   for (const Vector2d& slot : {Vector2d(nan, 0), Vector2d(0, nan), Vector2d(-inf, 0)}) {
-    EXPECT_NE(complaint([&] { Plan({"a"}, {slot}); }), "");
+    EXPECT_NE(complaint_of([&] { Plan({"a"}, {slot}); }), "");
   }
 }
 
 TEST(Plan, RefusesSlotsThatAreNotOnThisEarth) {
-  EXPECT_EQ(complaint([] { Plan({"a", "b"}, {{1e7, 0}, {0, -1e7}}); }), "");
-  EXPECT_EQ(complaint([] {
+  EXPECT_EQ(complaint_of([] { Plan({"a", "b"}, {{1e7, 0}, {0, -1e7}}); }), "");
+  EXPECT_EQ(complaint_of([] {
               Plan({"a", "b"}, {{1e300, 0}, {0, 0}});
             }),
             "slot a of the plan is at (1e+300, 0) m; give it coordinates of at most 1e+07 m");
@@ -163,7 +155,7 @@ TEST(LatticePlan, PaddingAddsALayerOnEverySide) {
     EXPECT_EQ(bare->padded(0).size(), 20);
     EXPECT_EQ(bare->padded(1).size(), 42);
     EXPECT_EQ(bare->padded(2).size(), 72);
-    EXPECT_NE(complaint([&] { bare->padded(-1); }), "");
+    EXPECT_NE(complaint_of([&] { bare->padded(-1); }), "");
   }
 }
 
@@ -174,12 +166,12 @@ TEST(LatticePlan, OneSlotIsALattice) {
 }
 
 TEST(LatticePlan, RefusesImpossibleSizes) {
-  EXPECT_EQ(complaint([] { lattice("square", 0, 4, 300); }),
+  EXPECT_EQ(complaint_of([] { lattice("square", 0, 4, 300); }),
             "scenario.toml:8: plan.square.rows is 0; it takes from 1 to 1000");
-  EXPECT_NE(complaint([] { lattice("square", 5, 1001, 300); }), "");
-  EXPECT_NE(complaint([] { lattice("square", 5, 4, 0); }), "");
-  EXPECT_NE(complaint([] { lattice("square", 5, 4, -300); }), "");
-  const std::string tiny = complaint([] { lattice("square", 5, 4, 1e-6)->plan(); });
+  EXPECT_NE(complaint_of([] { lattice("square", 5, 1001, 300); }), "");
+  EXPECT_NE(complaint_of([] { lattice("square", 5, 4, 0); }), "");
+  EXPECT_NE(complaint_of([] { lattice("square", 5, 4, -300); }), "");
+  const std::string tiny = complaint_of([] { lattice("square", 5, 4, 1e-6)->plan(); });
   EXPECT_NE(tiny.find("scenario.toml:7: slots NODE_1 and NODE_2"), std::string::npos) << tiny;
 }
 
@@ -192,7 +184,7 @@ TEST(LettersPlan, ScalesWithTheOption) {
     EXPECT_LT((twice.slot(i) - 2.0 * plain.slot(i)).norm(), 1e-9);
   }
   EXPECT_EQ(source("letters", table({}))->padded(1).size(), 22);
-  EXPECT_NE(complaint([] { source("letters", table({{"scale", value(0.0)}})); }), "");
+  EXPECT_NE(complaint_of([] { source("letters", table({{"scale", value(0.0)}})); }), "");
 }
 
 /// The plans of the public data set: name -> plan.
@@ -215,7 +207,7 @@ std::map<std::string, Plan> public_plans(const std::filesystem::path& path) {
 }
 
 TEST(PlanSources, AreThePlansOfTheThesisTrials) {
-  const auto path = tests::shared_data("formation_plans.csv");
+  const auto path = shoal::tests::shared_data("formation_plans.csv");
   SHOAL_NEEDS_SHARED(path);
   const auto plans = public_plans(path);
   const double rounding_m = 2e-6;
@@ -250,7 +242,7 @@ TEST(NodesPlan, ReadsTheFormOfTheThesisInAnyOrderAndSpacing) {
 TEST(NodesPlan, NamesTheOffendingStringAndWhereItWasWritten) {
   const std::string good = "name = a, x = 0, y = 0";
   const auto expect = [&](const std::string& bad, const std::string& what) {
-    EXPECT_EQ(complaint([&] {
+    EXPECT_EQ(complaint_of([&] {
                 nodes({good, bad});
               }),
               "scenario.toml:7: in the node \"" + bad + "\": " + what);
@@ -263,22 +255,22 @@ TEST(NodesPlan, NamesTheOffendingStringAndWhereItWasWritten) {
   expect("name = b, x = 1, y = 1, y = 2", "y is given twice");
   expect("name = , x = 1, y = 1", "name is empty");
   expect("nam = b, x = 1, y = 1", "there is no key \"nam\"; did you mean \"name\"?");
-  EXPECT_NE(complaint([&] { nodes({good, ""}); }), "");
-  EXPECT_NE(complaint([&] { nodes({good, "name = b; x = 1; y = 2"}); }), "");
+  EXPECT_NE(complaint_of([&] { nodes({good, ""}); }), "");
+  EXPECT_NE(complaint_of([&] { nodes({good, "name = b; x = 1; y = 2"}); }), "");
 }
 
 TEST(NodesPlan, NamesBothOfTwoStringsThatClash) {
-  EXPECT_EQ(complaint([] {
+  EXPECT_EQ(complaint_of([] {
               nodes({"name=a,x=0,y=0", "name=b,x=1,y=0", "name=a,x=2,y=0"});
             }),
             "scenario.toml:7: the nodes \"name=a,x=0,y=0\" and \"name=a,x=2,y=0\" have the same "
             "name; rename one of them");
-  EXPECT_EQ(complaint([] {
+  EXPECT_EQ(complaint_of([] {
               nodes({"name=a,x=0,y=0", "name=b,x=0,y=0"});
             }),
             "scenario.toml:7: the nodes \"name=a,x=0,y=0\" and \"name=b,x=0,y=0\" are at the same "
             "place; move one of them");
-  EXPECT_NE(complaint([] { nodes({}); }).find("scenario.toml:7: "), std::string::npos);
+  EXPECT_NE(complaint_of([] { nodes({}); }).find("scenario.toml:7: "), std::string::npos);
 }
 
 // Files -----------------------------------------------------------------------------------------
@@ -305,7 +297,7 @@ class PlanFromFile : public testing::Test {
   void expect_complaint(const std::string& text, int line, const std::string& what) const {
     const std::string where =
         (folder_ / "plan.csv").string() + (line > 0 ? ":" + std::to_string(line) : "") + ": ";
-    EXPECT_EQ(complaint([&] { plan(text); }), where + what);
+    EXPECT_EQ(complaint_of([&] { plan(text); }), where + what);
   }
 
   std::filesystem::path folder_;
@@ -366,13 +358,13 @@ TEST_F(PlanFromFile, ComplainsOfNothingToRead) {
 
 TEST_F(PlanFromFile, PointsAtTheSettingWhenTheFileIsNotThere) {
   const auto absent = folder_ / "absent.csv";
-  EXPECT_EQ(complaint([&] { plan_at(absent); }),
+  EXPECT_EQ(complaint_of([&] { plan_at(absent); }),
             "scenario.toml:8: cannot open " + absent.string() + "; is there such a CSV file?");
-  EXPECT_EQ(complaint([&] { plan_at(folder_); }),
+  EXPECT_EQ(complaint_of([&] { plan_at(folder_); }),
             "scenario.toml:8: " + folder_.string() + " is a directory; name a CSV file");
-  EXPECT_EQ(complaint([&] { source("file", table({}))->plan(); }),
+  EXPECT_EQ(complaint_of([&] { source("file", table({}))->plan(); }),
             "scenario.toml:7: this plan needs a file; set plan.file.path");
-  EXPECT_NE(complaint([&] {
+  EXPECT_NE(complaint_of([&] {
               source("file", table({{"path", value(std::string("library:x"))}}))->plan();
             }),
             "");

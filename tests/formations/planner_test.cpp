@@ -7,12 +7,14 @@
 
 #include "tests/formations/swarm.hpp"
 #include "tests/support/allocation_count.hpp"
+#include "tests/support/complaint_of.hpp"
 #include "tests/support/test_name.hpp"
 
 namespace shoal::formations {
 namespace {
 
 using namespace tests;
+using shoal::tests::complaint_of;
 
 Ping ping_of(const Neighbour& n, double time_s) {
   return {.time_s = time_s,
@@ -35,22 +37,11 @@ struct Engineer {
   }
 };
 
-template <class Act>
-std::string complaint(Act act) {
-  try {
-    act();
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "";
-}
-
-const Plan cross = plan_of({{0, 0}, {100, 0}, {0, 100}, {-100, 0}, {0, -100}});
 const Vector2d start(5000, -2000);
 
 TEST(Planner, TurnsPingsIntoATarget) {
-  Engineer engineer(cross);
-  engineer.hear(heard(cross, 0, {}, {-20, 0}), 0.0, start);
+  Engineer engineer(cross_plan);
+  engineer.hear(heard(cross_plan, 0, {}, {-20, 0}), 0.0, start);
   const Target& target = engineer.planner.plan(0.5, {.position = start});
   EXPECT_EQ(target.reason, Reason::placed);
   EXPECT_LT((target.position - Vector2d(16, 0)).norm(), 1e-9);  // 4 of 5 weights
@@ -58,8 +49,8 @@ TEST(Planner, TurnsPingsIntoATarget) {
 }
 
 TEST(Planner, RefersTheTargetToWhereTheVehicleIsNow) {
-  Engineer engineer(cross);
-  engineer.hear(heard(cross, 0, {}, {-20, 0}), 0.0, start);
+  Engineer engineer(cross_plan);
+  engineer.hear(heard(cross_plan, 0, {}, {-20, 0}), 0.0, start);
   engineer.planner.plan(0.5, {.position = start});
   EXPECT_LT((engineer.planner.target_from(start) - Vector2d(16, 0)).norm(), 1e-9);
   EXPECT_LT((engineer.planner.target_from(start + Vector2d(16, 3)) - Vector2d(0, -3)).norm(), 1e-9);
@@ -76,24 +67,24 @@ TEST(Planner, TellsTheBehaviourWhereTheVehicleIs) {
     bool needs_ids() const override { return false; }
   };
   const auto listener = std::make_shared<const Listener>();
-  Planner planner(std::make_shared<const Plan>(cross), listener, "v0");
+  Planner planner(std::make_shared<const Plan>(cross_plan), listener, "v0");
   planner.plan(0.0, {.position = start});
   EXPECT_EQ(listener->told, start);
 }
 
 TEST(Planner, PlansFromWhereTheVehicleIsNow) {
-  Engineer engineer(cross);
-  engineer.hear(heard(cross, 0, {}, {-20, 0}), 0.0, start);
+  Engineer engineer(cross_plan);
+  engineer.hear(heard(cross_plan, 0, {}, {-20, 0}), 0.0, start);
   // Having come 10 m of the way, 10 m are left: 4 of 5 weights see them.
   const Target target = engineer.planner.plan(10.0, {.position = start + Vector2d(10, 0)});
   EXPECT_LT((target.position - Vector2d(8, 0)).norm(), 1e-9);
 }
 
 TEST(Planner, HoldsBeforeItHearsAnybodyAndAfterAllHaveGone) {
-  Engineer engineer(cross);
+  Engineer engineer(cross_plan);
   EXPECT_EQ(engineer.planner.last_target().reason, Reason::no_neighbour);
   EXPECT_EQ(engineer.planner.target_from(start), Vector2d(0, 0));
-  engineer.hear(heard(cross, 0, {}, {-20, 0}), 0.0, start);
+  engineer.hear(heard(cross_plan, 0, {}, {-20, 0}), 0.0, start);
   EXPECT_FALSE(engineer.planner.plan(0.0, {.position = start}).held());
   EXPECT_EQ(engineer.planner.plan(1000.0, {.position = start}).reason, Reason::no_neighbour);
   // Held: drift freely wherever the current takes the vehicle.
@@ -105,14 +96,14 @@ TEST(Planner, KnowsItsSlotByName) {
                                                  std::vector<Vector2d>{{0, 0}, {9, 0}});
   const std::shared_ptr<const Behaviour> rigid = behaviour("rigid_registration");
   EXPECT_EQ(Planner(plan, rigid, "bea").own_slot(), 1);
-  EXPECT_EQ(complaint([&] { Planner(plan, rigid, "cid"); }),
+  EXPECT_EQ(complaint_of([&] { Planner(plan, rigid, "cid"); }),
             "the plan has no slot named \"cid\"; it has ann and bea");
 }
 
 TEST(Planner, RefusesPingsThatCannotBe) {
-  Engineer engineer(cross);
+  Engineer engineer(cross_plan);
   const auto refusal = [&](Ping ping, const Vector2d& own = Vector2d::Zero()) {
-    return complaint([&] { engineer.planner.receive(ping, own); });
+    return complaint_of([&] { engineer.planner.receive(ping, own); });
   };
   constexpr double nan = std::numeric_limits<double>::quiet_NaN();
   const std::string numbers =
@@ -132,8 +123,8 @@ TEST(Planner, RefusesPingsThatCannotBe) {
 }
 
 TEST(Planner, ForgetsNothingOfARefusedPing) {
-  Engineer engineer(cross);
-  engineer.hear(heard(cross, 0, {}, {-20, 0}), 0.0, start);
+  Engineer engineer(cross_plan);
+  engineer.hear(heard(cross_plan, 0, {}, {-20, 0}), 0.0, start);
   const Vector2d before = engineer.planner.plan(1.0, {.position = start}).position;
   EXPECT_THROW(engineer.planner.receive({.time_s = 1.0, .range_m = -1.0, .slot = 1}, start),
                InputError);
@@ -173,7 +164,7 @@ TEST(AllocationCount, SeesAllocationsOfLibraries) {
   GTEST_SKIP() << "the sanitizers have an operator new of their own";
 #endif
   const std::size_t before = shoal::tests::allocations();
-  const Plan plan = cross;  // copied by libshoal_formations or here: vectors, in any case
+  const Plan plan = cross_plan;  // copied by libshoal_formations or here: vectors, in any case
   EXPECT_GT(shoal::tests::allocations(), before);
   const std::size_t between = shoal::tests::allocations();
   const Plan centred = plan.centred();  // a function of the library

@@ -19,12 +19,6 @@ std::unique_ptr<Selection> selection(const std::string& kind, Table options = {}
   return Registry<Selection>::instance().make(kind, table, "test");
 }
 
-Neighbours at(std::initializer_list<Vector2d> positions) {
-  Neighbours all;
-  for (const Vector2d& p : positions) all.push_back({p, 0.0, anonymous});
-  return all;
-}
-
 std::vector<int> chosen(const Selection& selection, const Neighbours& swarm) {
   std::vector<int> indices{7, 8, 9};  // what was there goes
   selection.select(swarm, indices);
@@ -87,17 +81,17 @@ TEST_P(EnrolledSelection, TurnsAndMirrorsWithTheSwarm) {
 TEST_P(EnrolledSelection, AnswersEveryDegenerateSwarm) {
   EXPECT_TRUE(chosen(*made, {}).empty());
   for (const Neighbours& swarm : {
-           at({{200, 0}}),
-           at({{0, 0}}),
-           at({{0, 0}, {0, 0}}),
-           at({{0, 0}, {100, 0}}),
-           at({{50, 0}, {50, 0}, {50, 0}}),
-           at({{100, 0}, {-100, 0}}),
-           at({{100, 100}, {200, 200}, {300, 300}}),
-           at({{1e-300, 0}, {-1e-300, 1e-300}}),
-           at({{1e-12, 0}, {0, 1e-12}, {300, 0}}),
-           at({{1e150, 0}, {0, -1e150}, {1e150, 1e150}}),
-           at({{300, 0}, {0, 300}, {-300, 0}, {0, -300}, {300, 300}, {-300, -300}}),
+           neighbours_at({{200, 0}}),
+           neighbours_at({{0, 0}}),
+           neighbours_at({{0, 0}, {0, 0}}),
+           neighbours_at({{0, 0}, {100, 0}}),
+           neighbours_at({{50, 0}, {50, 0}, {50, 0}}),
+           neighbours_at({{100, 0}, {-100, 0}}),
+           neighbours_at({{100, 100}, {200, 200}, {300, 300}}),
+           neighbours_at({{1e-300, 0}, {-1e-300, 1e-300}}),
+           neighbours_at({{1e-12, 0}, {0, 1e-12}, {300, 0}}),
+           neighbours_at({{1e150, 0}, {0, -1e150}, {1e150, 1e150}}),
+           neighbours_at({{300, 0}, {0, 300}, {-300, 0}, {0, -300}, {300, 300}, {-300, -300}}),
        }) {
     const Indices indices = chosen(*made, swarm);
     EXPECT_FALSE(indices.empty());
@@ -128,44 +122,49 @@ INSTANTIATE_TEST_SUITE_P(Selections, EnrolledSelection,
 TEST(TwoNeighbours, AreTheNearestAndTheOneOfTheShortestTriangle) {
   const auto two = selection("two_neighbours");
   // The second nearest (310 m, but opposite) makes a longer triangle than the third.
-  EXPECT_EQ(chosen(*two, at({{-310, 0}, {250, 0}, {200, 280}})), (Indices{1, 2}));
-  EXPECT_EQ(chosen(*two, at({{-310, 0}})), (Indices{0}));
+  EXPECT_EQ(chosen(*two, neighbours_at({{-310, 0}, {250, 0}, {200, 280}})), (Indices{1, 2}));
+  EXPECT_EQ(chosen(*two, neighbours_at({{-310, 0}})), (Indices{0}));
 }
 
 TEST(InRange, IsEverybody) {
-  EXPECT_EQ(chosen(*selection("in_range"), at({{3, 0}, {1, 0}, {1, 0}})), (Indices{0, 1, 2}));
+  EXPECT_EQ(chosen(*selection("in_range"), neighbours_at({{3, 0}, {1, 0}, {1, 0}})),
+            (Indices{0, 1, 2}));
 }
 
 TEST(KNearest, AreTheKNearest) {
-  const Neighbours swarm = at({{400, 0}, {0, 100}, {-300, 0}, {0, -200}});
+  const Neighbours swarm = neighbours_at({{400, 0}, {0, 100}, {-300, 0}, {0, -200}});
   EXPECT_EQ(chosen(*selection("k_nearest", {{"k", std::int64_t{2}}}), swarm), (Indices{1, 3}));
   EXPECT_EQ(chosen(*selection("k_nearest", {{"k", std::int64_t{9}}}), swarm),
             (Indices{0, 1, 2, 3}));
   // Of a tie the first: two of these are 1 m away.
-  EXPECT_EQ(chosen(*selection("k_nearest", {{"k", std::int64_t{1}}}), at({{0, 1}, {1, 0}})),
-            (Indices{0}));
+  EXPECT_EQ(
+      chosen(*selection("k_nearest", {{"k", std::int64_t{1}}}), neighbours_at({{0, 1}, {1, 0}})),
+      (Indices{0}));
 }
 
 TEST(AcuteAngle, HasNoDiagonalInALatticeOfSquaresAndSixSpringsInOneOfTriangles) {
   const auto acute = selection("acute_angle");
-  EXPECT_EQ(chosen(*acute, at({{300, 0}, {0, 300}, {300, 300}, {-300, 0}})), (Indices{0, 1, 3}));
+  EXPECT_EQ(chosen(*acute, neighbours_at({{300, 0}, {0, 300}, {300, 300}, {-300, 0}})),
+            (Indices{0, 1, 3}));
   const double h = 300.0 * std::sqrt(0.75);
-  EXPECT_EQ(chosen(*acute, at({{300, 0},
-                               {150, h},
-                               {-150, h},
-                               {-300, 0},
-                               {-150, -h},
-                               {150, -h},
-                               {450, h},
-                               {600, 0}})),
+  EXPECT_EQ(chosen(*acute, neighbours_at({{300, 0},
+                                          {150, h},
+                                          {-150, h},
+                                          {-300, 0},
+                                          {-150, -h},
+                                          {150, -h},
+                                          {450, h},
+                                          {600, 0}})),
             (Indices{0, 1, 2, 3, 4, 5}));
 }
 
 TEST(AcuteAngle, IsCutByWhoStandsBetween) {
   const auto acute = selection("acute_angle");
-  EXPECT_EQ(chosen(*acute, at({{300, 0}, {150, 100}})), (Indices{1}));     // under 112 degrees
-  EXPECT_EQ(chosen(*acute, at({{300, 0}, {150, 200}})), (Indices{0, 1}));  // under 74 degrees
-  EXPECT_EQ(chosen(*acute, at({{300, 0}, {300, 0}})), (Indices{0, 1}));
+  EXPECT_EQ(chosen(*acute, neighbours_at({{300, 0}, {150, 100}})),
+            (Indices{1}));  // under 112 degrees
+  EXPECT_EQ(chosen(*acute, neighbours_at({{300, 0}, {150, 200}})),
+            (Indices{0, 1}));  // under 74 degrees
+  EXPECT_EQ(chosen(*acute, neighbours_at({{300, 0}, {300, 0}})), (Indices{0, 1}));
 }
 
 TEST(AcuteAngle, IsTheGabrielGraph) {
@@ -215,14 +214,15 @@ TEST(Delaunay, AreThoseWithAnEmptyCircleThroughOwnAndNeighbour) {
 
 TEST(Delaunay, OnOneLineAreTheNextOnEitherSide) {
   const auto delaunay = selection("delaunay");
-  EXPECT_EQ(chosen(*delaunay, at({{300, 0}, {100, 0}, {-200, 0}, {-500, 0}})), (Indices{1, 2}));
-  EXPECT_EQ(chosen(*delaunay, at({{1, 1}, {2, 2}, {3, 3}})), (Indices{0}));
+  EXPECT_EQ(chosen(*delaunay, neighbours_at({{300, 0}, {100, 0}, {-200, 0}, {-500, 0}})),
+            (Indices{1, 2}));
+  EXPECT_EQ(chosen(*delaunay, neighbours_at({{1, 1}, {2, 2}, {3, 3}})), (Indices{0}));
 }
 
 TEST(Delaunay, ChoosesThoseOnTopOfOneAnotherTogether) {
   const auto delaunay = selection("delaunay");
-  EXPECT_EQ(chosen(*delaunay, at({{300, 0}, {300, 0}, {0, 300}})), (Indices{0, 1, 2}));
-  EXPECT_EQ(chosen(*delaunay, at({{0, 0}, {300, 0}})), (Indices{0, 1}));
+  EXPECT_EQ(chosen(*delaunay, neighbours_at({{300, 0}, {300, 0}, {0, 300}})), (Indices{0, 1, 2}));
+  EXPECT_EQ(chosen(*delaunay, neighbours_at({{0, 0}, {300, 0}})), (Indices{0, 1}));
 }
 
 }  // namespace

@@ -23,6 +23,9 @@ using Neighbours = std::vector<Neighbour>;
 /// Dotted names and values: {{"delta_theta_deg", 10.0}, {"solver.kind", "nlopt.mma"}}.
 using Table = std::initializer_list<std::pair<const char*, decltype(Setting::value)>>;
 
+inline const std::string rigid_kind = "rigid_registration";
+inline const std::string pairwise_kind = "pairwise_referencing";
+
 inline std::unique_ptr<Behaviour> behaviour(std::string_view kind, Table options = {}) {
   Setting table;
   for (const auto& [path, value] : options) assign(table, path, Setting{value, {}});
@@ -34,6 +37,12 @@ inline Plan plan_of(const Points& slots) {
   for (std::size_t i = 0; i < slots.size(); ++i) names.push_back("v" + std::to_string(i));
   return Plan(names, slots);
 }
+
+/// For behaviours that do not look at the plan.
+inline const Plan unused_plan = plan_of({{0, 0}});
+
+/// Slot 0 in the middle of four others.
+inline const Plan cross_plan = plan_of({{0, 0}, {100, 0}, {0, 100}, {-100, 0}, {0, -100}});
 
 inline Plan square_lattice(int columns, int rows, double separation_m) {
   Points slots;
@@ -52,6 +61,12 @@ inline Neighbours heard(const Plan& plan, int own_slot, const Transform2& T_worl
   for (int i = 0; i < plan.size(); ++i) {
     if (i != own_slot) all.push_back({T_world_plan * plan.slot(i) - own, 0.0, i});
   }
+  return all;
+}
+
+inline Neighbours neighbours_at(std::initializer_list<Vector2d> positions) {
+  Neighbours all;
+  for (const Vector2d& p : positions) all.push_back({p, 0.0, anonymous});
   return all;
 }
 

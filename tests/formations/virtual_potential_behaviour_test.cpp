@@ -14,7 +14,7 @@ namespace {
 
 using namespace tests;
 
-const Plan unused = square_lattice(2, 2, 30.0);
+const Plan square = square_lattice(2, 2, 30.0);
 
 TEST(VirtualPotentialBehaviour, GivesTheForceOfItsPotential) {
   const std::shared_ptr<const Obstacle> circle = std::make_shared<Circle>(Vector2d(60, 10), 15.0);
@@ -22,7 +22,7 @@ TEST(VirtualPotentialBehaviour, GivesTheForceOfItsPotential) {
   const Neighbours others{{{0, 30}, 0.0, anonymous, {1.0, 0.0}, 0.2},
                           {{900, 0}, 0.0, anonymous, {0.0, 0.0}, 0.0}};
   const Target target = behaviour("virtual_potential", {{"waypoint_x_m", 300.0}})
-                            ->step({others, 0, own, {&circle, 1}}, unused);
+                            ->step({others, 0, own, {&circle, 1}}, square);
   const VirtualPotential potential({}, {300, 0}, {&circle, 1});
   const Agent near{{20, 35}, 0.2};  // the other one is out of range
   ASSERT_TRUE(target.force_m_s2);
@@ -39,7 +39,7 @@ TEST(VirtualPotentialBehaviour, LooksAheadForAllVehiclesAlike) {
   const auto cells_only = [&](double lead_s) {
     const auto made =
         behaviour("virtual_potential", {{"lead_s", lead_s}, {"gains.waypoint.pull_m_s2", 0.0}});
-    return *made->step({others, 0, own}, unused).force_m_s2;
+    return *made->step({others, 0, own}, square).force_m_s2;
   };
   EXPECT_LT((cells_only(0.0) - cells_only(8.0)).norm(), 1e-12);
 
@@ -49,8 +49,8 @@ TEST(VirtualPotentialBehaviour, LooksAheadForAllVehiclesAlike) {
   const OwnState later{.position = own.position + 5.0 * together, .velocity = together};
   const Neighbours then{{{0, 20}, 0.0, anonymous, {1.3, -2.2}, 0.0}};
   const auto unled = behaviour("virtual_potential");
-  EXPECT_LT((*made->step({closing, 0, own}, unused).force_m_s2 -
-             *unled->step({then, 0, later}, unused).force_m_s2)
+  EXPECT_LT((*made->step({closing, 0, own}, square).force_m_s2 -
+             *unled->step({then, 0, later}, square).force_m_s2)
                 .norm(),
             1e-12);
 }
@@ -58,9 +58,9 @@ TEST(VirtualPotentialBehaviour, LooksAheadForAllVehiclesAlike) {
 TEST(VirtualPotentialStep, GoesToTheMinimumWithinReach) {
   const auto made =
       behaviour("virtual_potential_step", {{"waypoint_x_m", 500.0}, {"reach_m", 25.0}});
-  const Target ahead = made->step({{}, 0, {.position = {0, 0}}}, unused);
+  const Target ahead = made->step({{}, 0, {.position = {0, 0}}}, square);
   EXPECT_NEAR(ahead.position.x(), 25.0, 1e-6) << "as far as it may";
-  const Target there = made->step({{}, 0, {.position = {495, 2}}}, unused);
+  const Target there = made->step({{}, 0, {.position = {495, 2}}}, square);
   EXPECT_NEAR(there.position.x(), 5.0, 1e-4);
   EXPECT_NEAR(there.position.y(), -2.0, 1e-4);
 }
@@ -78,7 +78,7 @@ TEST(VirtualPotentialStep, RefusesASolverWithoutBounds) {
 
 TEST(VirtualPotentialBehaviour, HoldsWhereTheForceIsNoNumber) {
   const Neighbours lost{{{NAN, 0}, 0.0, anonymous}};
-  const Target target = behaviour("virtual_potential")->step({lost, 0}, unused);
+  const Target target = behaviour("virtual_potential")->step({lost, 0}, square);
   EXPECT_TRUE(target.held() || target.force_m_s2->allFinite());
 }
 

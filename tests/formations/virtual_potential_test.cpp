@@ -95,7 +95,7 @@ struct Sea {
   }
 };
 
-std::vector<Vector2d> places() {
+std::vector<Vector2d> places_at_sea() {
   std::vector<Vector2d> all;
   for (int i = 0; i < 60; ++i) {
     const Vector2d place(-70.0 + 37.0 * (i % 5) + 0.3 * i, -60.0 + 13.0 * (i % 11) - 0.2 * i);
@@ -111,7 +111,7 @@ TEST(VirtualPotential, HasTheDerivativesOfItsValue) {
     gains.cell.axes = axes;
     const VirtualPotential potential = sea.made(gains);
     int checked = 0;
-    for (const Vector2d& place : places()) {
+    for (const Vector2d& place : places_at_sea()) {
       const PlaneValue exact = potential.potential(place, sea.others);
       if (exact.gradient.norm() > 1e3) continue;  // inside, where differences are all rounding
       ++checked;
@@ -141,7 +141,7 @@ TEST(VirtualPotential, TurnsWithTheWorld) {
   const std::vector<Agent> others{{{-40, 5}, 0.3}};
   const std::vector<Agent> turned{{T * others[0].position, 0.3 + 1.1}};
   const Vector2d velocity(1.0, -0.2);
-  for (const Vector2d& place : places()) {
+  for (const Vector2d& place : places_at_sea()) {
     const Vector2d force = here.force(place, velocity, others);
     const Vector2d same = there.force(T * place, T.rotate(velocity), turned);
     EXPECT_LT((T.rotate(force) - same).norm(), 1e-9 * (1.0 + force.norm())) << place;
@@ -151,7 +151,7 @@ TEST(VirtualPotential, TurnsWithTheWorld) {
 TEST(VirtualPotential, ForcesAreTheNegativeGradientTheRotorAndTheDamping) {
   const Sea sea;
   const Vector2d velocity(1.4, 0.0);
-  for (const Vector2d& place : places()) {
+  for (const Vector2d& place : places_at_sea()) {
     const Vector2d expected = -sea.potential.potential(place, sea.others).gradient +
                               sea.potential.rotor(place, velocity) - Vector2d(0.05, 0.0);
     EXPECT_LT((sea.potential.force(place, velocity, sea.others) - expected).norm(),

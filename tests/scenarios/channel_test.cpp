@@ -9,7 +9,7 @@
 namespace shoal::scenarios {
 namespace {
 
-constexpr double tick_s = 0.25;
+constexpr double channel_tick_s = 0.25;
 
 struct Still final : Swarm {
   using Swarm::Swarm;
@@ -45,7 +45,9 @@ struct Listener {
     swarm.y_m[0] = y;
     swarm.depth_m[0] = depth;
   }
-  void listen(double now_s) { channel.listen(swarm, 0, now_s, tick_s, hydrophone, received); }
+  void listen(double now_s) {
+    channel.listen(swarm, 0, now_s, channel_tick_s, hydrophone, received);
+  }
 };
 
 TEST(Channel, APingArrivesAfterItsTravelTime) {

@@ -11,7 +11,7 @@ namespace {
 
 using formations::Command;
 
-constexpr double tick_s = 0.25;
+constexpr double drifter_tick_s = 0.25;
 
 /// One vehicle at the origin that heads east, without heading noise unless asked for.
 struct OneVehicle {
@@ -22,7 +22,7 @@ struct OneVehicle {
   double u = 0.0, v = 0.0;
 
   explicit OneVehicle(const Drifter& drifter = quiet()) : type(drifter) {
-    swarm = type.launch({Start{0.0, 0.0, 0.0}}, energy, RandomStreams(1), tick_s);
+    swarm = type.launch({Start{0.0, 0.0, 0.0}}, energy, RandomStreams(1), drifter_tick_s);
   }
   static Drifter quiet() {
     Drifter drifter;
@@ -31,7 +31,7 @@ struct OneVehicle {
   }
   void run(double seconds, const Command& command) {
     const std::vector<Command> commands{command};
-    for (double t = 0.0; t < seconds - 1e-9; t += tick_s) {
+    for (double t = 0.0; t < seconds - 1e-9; t += drifter_tick_s) {
       swarm->advance(0, 1, tick++, commands, {&u, 1}, {&v, 1});
     }
   }
@@ -132,7 +132,7 @@ TEST(Drifter, GlidesTheSameWhetherOrNotItsShortCutApplies) {
   // Below the first knot a tick is two fixed factors; here its five steps are taken one by one.
   OneVehicle shortcut;
   shortcut.swarm->speed_m_s[0] = 0.09;
-  shortcut.run(tick_s, {});
+  shortcut.run(drifter_tick_s, {});
   double speed = 0.09, path = 0.0;
   for (int k = 0; k < 5; ++k) {
     const double next = speed - 0.05 * drag_map(speed) / 31.0;
@@ -169,7 +169,7 @@ TEST(Drifter, HeadingWandersByTwentyDegreesInAMinute) {
   const std::size_t n = 2000;
   Drifter noisy;
   const auto swarm =
-      noisy.launch(std::vector<Start>(n, Start{}), Energy{}, RandomStreams(7), tick_s);
+      noisy.launch(std::vector<Start>(n, Start{}), Energy{}, RandomStreams(7), drifter_tick_s);
   const std::vector<Command> commands(n);
   const std::vector<double> still(n, 0.0);
   const auto run = [&](std::int64_t from, std::int64_t to) {

@@ -7,13 +7,14 @@
 #include "shoal/scenarios/estimators/vehicle_filter.hpp"
 #include "tests/scenarios/sluggish_vehicle.hpp"
 #include "tests/support/allocation_count.hpp"
+#include "tests/support/nan_value.hpp"
 
 namespace shoal::scenarios {
 namespace {
 
-constexpr double period_s = 0.5;
-const Eigen::Vector2d still = Eigen::Vector2d::Zero();
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+constexpr double cycle_s = 0.5;
+const Eigen::Vector2d still_water = Eigen::Vector2d::Zero();
+using shoal::tests::nan_value;
 
 std::unique_ptr<Estimator> estimator(
     const std::string& kind, const std::vector<std::pair<std::string, std::string>>& words = {}) {
@@ -31,15 +32,15 @@ VehicleState error(const Estimate& estimate, const VehicleState& truth) {
 /// Disturbed vehicles that speed up, slow down and turn; `look` sees (vehicle, k, truth, estimate).
 template <class Look>
 void sail(const Estimator& how, std::size_t vehicles, std::uint64_t samples, std::uint64_t seed,
-          const Look& look, const Eigen::Vector2d& water = still) {
+          const Look& look, const Eigen::Vector2d& water = still_water) {
   std::vector<VehicleState> x(vehicles, VehicleState::Zero());
   const RandomStreams random(seed);
-  const auto navigation = how.launch(x, {}, random, period_s);
-  Disturbances disturbances({}, vehicles, random, period_s);
+  const auto navigation = how.launch(x, {}, random, cycle_s);
+  Disturbances disturbances({}, vehicles, random, cycle_s);
   for (std::uint64_t k = 0; k < samples; ++k) {
     for (std::size_t v = 0; v < vehicles; ++v) {
       const double phase = static_cast<double>(k) * 0.01 + static_cast<double>(v);
-      tests::SluggishVehicle model{period_s, 1.2 + 0.4 * std::sin(phase),
+      tests::SluggishVehicle model{cycle_s, 1.2 + 0.4 * std::sin(phase),
                                    0.05 * (static_cast<double>((k / 60 + v) % 3) - 1.0)};
       if (k > 0) {
         tests::SluggishVehicle disturbed = model;
@@ -59,7 +60,7 @@ struct Quality {
   UkfStatus worst = UkfStatus::ok;
 };
 
-Quality quality(const Estimator& how, const Eigen::Vector2d& water = still) {
+Quality quality(const Estimator& how, const Eigen::Vector2d& water = still_water) {
   Quality q;
   double n = 0.0;
   VehicleState measured = VehicleState::Zero();
@@ -87,7 +88,7 @@ Quality quality(const Estimator& how, const Eigen::Vector2d& water = still) {
 }
 
 Quality quality(const std::vector<std::pair<std::string, std::string>>& words,
-                const Eigen::Vector2d& water = still) {
+                const Eigen::Vector2d& water = still_water) {
   return quality(*estimator("ukf", words), water);
 }
 
@@ -142,7 +143,7 @@ TEST(UkfEstimator, WhatADopplerLogShowsOverGroundIsTheSumOfBothVelocities) {
   const Eigen::Vector2d water(0.3, -0.2);
   const auto shown = [&](VehicleFilterOptions::Doppler doppler) {
     options.doppler = doppler;
-    return VehicleFilter(options, options.settings({}, period_s), x, period_s).measured(x, water);
+    return VehicleFilter(options, options.settings({}, cycle_s), x, cycle_s).measured(x, water);
   };
   EXPECT_EQ(shown(VehicleFilterOptions::Doppler::water_track), x);
   const VehicleState over_ground = shown(VehicleFilterOptions::Doppler::bottom_track);
@@ -174,20 +175,20 @@ TEST(UkfEstimator, EveryPropagationKeepsItsCourse) {
 TEST(UkfEstimator, FollowsThePropagationThatIsAskedFor) {
   const auto calls = [](const char* propagation) {
     const auto how = estimator("ukf", {{"propagation", propagation}});
-    const auto navigation = how->launch({VehicleState::Zero()}, {}, RandomStreams(1), period_s);
+    const auto navigation = how->launch({VehicleState::Zero()}, {}, RandomStreams(1), cycle_s);
     int count = 0;
     struct Counted {
       int& count;
       VehicleState operator()(const VehicleState& x, const Eigen::Vector2d& water) const {
         ++count;
-        return KinematicModel{period_s}(x, water);
+        return KinematicModel{cycle_s}(x, water);
       }
       BodyTangent tangent(const VehicleState&) const { return BodyTangent::Zero(); }
     };
     const Counted model{count};
-    navigation->sample(0, 0, VehicleState::Zero(), still, model);
+    navigation->sample(0, 0, VehicleState::Zero(), still_water, model);
     EXPECT_EQ(count, 0);  // nothing has passed yet
-    navigation->sample(0, 1, VehicleState::Zero(), still, model);
+    navigation->sample(0, 1, VehicleState::Zero(), still_water, model);
     return count;
   };
   EXPECT_EQ(calls("kinematic"), 0);
@@ -214,11 +215,11 @@ TEST(UkfEstimator, WithoutNoiseOrDisturbanceStaysWithTheTruth) {
   assign(table, "sensors.on", {false, {}});
   const auto how = Registry<Estimator>::instance().make("ukf", table, "estimator.ukf");
   VehicleState x = VehicleState::Zero();
-  const auto navigation = how->launch({x}, {.on = false}, RandomStreams(1), period_s);
-  const tests::SluggishVehicle model{period_s, 1.0, 0.1};
+  const auto navigation = how->launch({x}, {.on = false}, RandomStreams(1), cycle_s);
+  const tests::SluggishVehicle model{cycle_s, 1.0, 0.1};
   for (std::uint64_t k = 0; k < 200; ++k) {
     if (k > 0) x = model(x);
-    const Estimate& estimate = navigation->sample(0, k, x, still, model);
+    const Estimate& estimate = navigation->sample(0, k, x, still_water, model);
     EXPECT_LT(error(estimate, x).norm(), 0.02) << k;
     EXPECT_EQ(estimate.used, 12);
   }
@@ -229,7 +230,7 @@ VehicleFilter kinematic_filter(const VehicleState& start) {
   VehicleFilterOptions options;
   options.model_error_m_s2 = 0.02;
   options.model_error_rad_s2 = 0.005;
-  return {options, options.settings({}, period_s), start, period_s};
+  return {options, options.settings({}, cycle_s), start, cycle_s};
 }
 
 TEST(VehicleFilter, HeadingCrossesSouthWithoutAJump) {
@@ -239,11 +240,11 @@ TEST(VehicleFilter, HeadingCrossesSouthWithoutAJump) {
   x(5) = 0.2;
   VehicleFilter filter = kinematic_filter(x);
   for (int k = 0; k < 1260; ++k) {
-    x = KinematicModel{period_s}(x);
+    x = KinematicModel{cycle_s}(x);
     VehicleState measured = x;
     measured(11) = wrapped(x(11));
-    filter.predict(KinematicModel{period_s});
-    const Estimate& estimate = filter.correct(measured, x, still);
+    filter.predict(KinematicModel{cycle_s});
+    const Estimate& estimate = filter.correct(measured, x, still_water);
     // The mean turn is smaller than that of the mean attitude, by the cosine of an uncertain roll.
     ASSERT_LT(std::abs(error(estimate, x)(11)), 1e-3) << k;
     ASSERT_LT(error(estimate, x).segment<2>(6).norm(), 0.05) << k;
@@ -254,11 +255,11 @@ TEST(VehicleFilter, HeadingCrossesSouthWithoutAJump) {
 TEST(VehicleFilter, KnowsLessAndLessOfAChannelAtFault) {
   VehicleFilter filter = kinematic_filter(VehicleState::Zero());
   VehicleState measured = VehicleState::Zero();
-  measured(8) = nan;
+  measured(8) = nan_value;
   double before = 0.0;
   for (int k = 0; k < 60; ++k) {
-    filter.predict(KinematicModel{period_s});
-    const Estimate& estimate = filter.correct(measured, VehicleState::Zero(), still);
+    filter.predict(KinematicModel{cycle_s});
+    const Estimate& estimate = filter.correct(measured, VehicleState::Zero(), still_water);
     EXPECT_GT(estimate.sd(8), before);
     EXPECT_TRUE(estimate.faulty[8]);
     EXPECT_TRUE(std::isnan(estimate.innovation(8)));
@@ -270,26 +271,27 @@ TEST(VehicleFilter, KnowsLessAndLessOfAChannelAtFault) {
 TEST(VehicleFilter, ALostFilterSaysSoAndStartsAgainFromItsSensors) {
   VehicleFilter filter = kinematic_filter(VehicleState::Zero());
   VehicleState measured = VehicleState::Constant(0.1);
-  measured(7) = nan;
-  filter.predict([](const VehicleBelief&) { return VehicleBelief(VehicleBelief::Constant(nan)); });
-  const Estimate& lost = filter.correct(measured, VehicleState::Zero(), still);
+  measured(7) = nan_value;
+  filter.predict(
+      [](const VehicleBelief&) { return VehicleBelief(VehicleBelief::Constant(nan_value)); });
+  const Estimate& lost = filter.correct(measured, VehicleState::Zero(), still_water);
   EXPECT_EQ(lost.status, UkfStatus::lost);
   EXPECT_EQ(lost.state(6), 0.1);
   EXPECT_TRUE(std::isfinite(lost.state(7)));
-  filter.predict(KinematicModel{period_s});
-  EXPECT_EQ(filter.correct(measured, VehicleState::Zero(), still).status, UkfStatus::ok);
+  filter.predict(KinematicModel{cycle_s});
+  EXPECT_EQ(filter.correct(measured, VehicleState::Zero(), still_water).status, UkfStatus::ok);
 }
 
 TEST(VehicleFilter, AllocatesNothing) {
   const auto how = estimator("ukf");
   VehicleState x = VehicleState::Zero();
-  const auto navigation = how->launch({x}, {}, RandomStreams(1), period_s);
-  const tests::SluggishVehicle model{period_s, 1.0, 0.1};
-  navigation->sample(0, 0, x, still, model);
+  const auto navigation = how->launch({x}, {}, RandomStreams(1), cycle_s);
+  const tests::SluggishVehicle model{cycle_s, 1.0, 0.1};
+  navigation->sample(0, 0, x, still_water, model);
   const std::size_t before = tests::heap_requests();
   for (std::uint64_t k = 1; k < 300; ++k) {
     x = model(x);
-    navigation->sample(0, k, x, still, model);
+    navigation->sample(0, k, x, still_water, model);
   }
   EXPECT_EQ(tests::heap_requests() - before, 0u);
 }
@@ -305,7 +307,7 @@ TEST(VehicleFilterOptions, NameWhatIsWrong) {
   Setting table;
   assign(table, "scaling.kappa", {-14.0, {}});
   const auto how = Registry<Estimator>::instance().make("ukf", table, "estimator.ukf");
-  EXPECT_THROW(how->launch({VehicleState::Zero()}, {}, RandomStreams(1), period_s), InputError);
+  EXPECT_THROW(how->launch({VehicleState::Zero()}, {}, RandomStreams(1), cycle_s), InputError);
   EXPECT_THROW(estimator("ukf")->launch({VehicleState::Zero()}, {}, RandomStreams(1), 0.0),
                InputError);
 }

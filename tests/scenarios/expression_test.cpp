@@ -14,7 +14,7 @@ namespace {
 
 const char* const potential = "behaviour.attraction_repulsion.potential.";
 
-Scenario scenario(const std::vector<std::string>& more) {
+Scenario scenario_with(const std::vector<std::string>& more) {
   Setting root;
   for (const char* set : {"plan.square={rows=3,columns=3}", "trial.duration_s=900",
                           "behaviour.kind=attraction_repulsion", "quality.every_s=0"}) {
@@ -49,15 +49,16 @@ double largest_difference(const std::vector<double>& a, const std::vector<double
 }
 
 TEST(Expression, OfEquation33GivesTheTrajectoriesOfTheBuiltIn) {
-  const Track built_in = track(scenario({}));
+  const Track built_in = track(scenario_with({}));
   for (const char* formula : {"s^3/(2*r^2) + r - 3*s", "r + s*((s/r)^2/2 - 3)"}) {
-    const Track written =
-        track(scenario({"kind=expression", "expression.formula=\"" + std::string(formula) + '"'}));
+    const Track written = track(
+        scenario_with({"kind=expression", "expression.formula=\"" + std::string(formula) + '"'}));
     ASSERT_EQ(written.x_m.size(), built_in.x_m.size());
     EXPECT_LT(largest_difference(written.x_m, built_in.x_m), 1e-9) << formula;
     EXPECT_LT(largest_difference(written.y_m, built_in.y_m), 1e-9) << formula;
   }
-  EXPECT_GT(largest_difference(built_in.x_m, track(scenario({"kind=virtual_spring"})).x_m), 1.0);
+  EXPECT_GT(largest_difference(built_in.x_m, track(scenario_with({"kind=virtual_spring"})).x_m),
+            1.0);
 }
 
 }  // namespace

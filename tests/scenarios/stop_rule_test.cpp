@@ -7,9 +7,12 @@
 
 #include "shoal/scenarios/toml_file.hpp"
 #include "shoal/scenarios/world.hpp"
+#include "tests/scenarios/scenario_of.hpp"
 
 namespace shoal::scenarios {
 namespace {
+
+using tests::scenario_of;
 
 std::unique_ptr<StopRule> settled(double threshold_m, double window_s, double not_before_s = 0.0) {
   Setting table;
@@ -56,15 +59,9 @@ TEST(DurationRule, IsNeverMet) {
 
 // In a world --------------------------------------------------------------------------------------
 
-Scenario scenario(const std::vector<std::string>& sets) {
-  Setting root;
-  for (const std::string& set : sets) apply_set(root, set);
-  return read_scenario(root);
-}
-
 std::string complaint(const std::vector<std::string>& sets) {
   try {
-    scenario(sets);
+    scenario_of(sets);
   } catch (const InputError& error) {
     return error.what();
   }
@@ -84,24 +81,24 @@ struct Judge final : Observer {
   std::optional<QualitySoFar> quality() const override { return QualitySoFar{time_s, quality_m}; }
 };
 
-struct Looker final : Observer {
+struct LastLook final : Observer {
   double interval_s, last_s = -1.0;
-  explicit Looker(double every) : interval_s(every) {}
+  explicit LastLook(double every) : interval_s(every) {}
   double every_s() const override { return interval_s; }
   void observe(const World& world) override { last_s = world.time_s(); }
 };
 
-const std::vector<std::string> small{"plan.square={rows=2,columns=2}", "trial.duration_s=300",
-                                     "quality.every_s=10", "stop.kind=settled",
-                                     "stop.settled={threshold_m=2,window_s=60}"};
+const std::vector<std::string> settling{"plan.square={rows=2,columns=2}", "trial.duration_s=300",
+                                        "quality.every_s=10", "stop.kind=settled",
+                                        "stop.settled={threshold_m=2,window_s=60}"};
 
 TEST(StopRule, EndsTheWorldAtTheSameInstantHoweverOftenItIsLookedAt) {
   const auto falling = [](double t) { return t < 100.0 ? 100.0 - t : 0.0; };
   std::vector<double> x;
   for (const double every_s : {0.25, 7.0, 10.0, 1000.0}) {
-    World world(scenario(small));
+    World world(scenario_of(settling));
     Judge judge(falling);
-    Looker looker(every_s);
+    LastLook looker(every_s);
     Observer* const observers[] = {&looker, &judge};
     world.run(observers);
     EXPECT_EQ(world.time_s(), 160.0);  // zero from 100 s on
@@ -115,7 +112,7 @@ TEST(StopRule, EndsTheWorldAtTheSameInstantHoweverOftenItIsLookedAt) {
 }
 
 TEST(StopRule, LeavesAWorldThatNeverSettlesToItsDuration) {
-  World world(scenario(small));
+  World world(scenario_of(settling));
   Judge judge([](double t) { return t; });
   Observer* const observers[] = {&judge};
   world.run(observers);
@@ -124,8 +121,8 @@ TEST(StopRule, LeavesAWorldThatNeverSettlesToItsDuration) {
 }
 
 TEST(StopRule, NeedsAnObserverThatMeasuresTheQuality) {
-  World world(scenario(small));
-  Looker looker(10.0);
+  World world(scenario_of(settling));
+  LastLook looker(10.0);
   Observer* const observers[] = {&looker};
   EXPECT_THROW(world.run(observers), InputError);
 }

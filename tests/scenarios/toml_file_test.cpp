@@ -50,7 +50,7 @@ std::string set_complaint(Setting root, const std::string& assignment) {
   return "";
 }
 
-const Setting& at(const Setting& root, const std::string& a, const std::string& b) {
+const Setting& entry(const Setting& root, const std::string& a, const std::string& b) {
   return *root.find(a)->find(b);
 }
 
@@ -84,8 +84,8 @@ TEST_F(TomlFile, KeepsEveryKindOfValueWithItsLine) {
   EXPECT_EQ(trial.origin.line, 2);
   EXPECT_EQ(trial.find("title")->origin.line, 6);
   EXPECT_EQ(trial.find("title")->origin.file, path.string());
-  EXPECT_EQ(at(root, "plan", "square").find("rows")->origin.line, 9);
-  const auto& points = std::get<Setting::List>(at(root, "plan", "points").value);
+  EXPECT_EQ(entry(root, "plan", "square").find("rows")->origin.line, 9);
+  const auto& points = std::get<Setting::List>(entry(root, "plan", "points").value);
   ASSERT_EQ(points.size(), 2u);
   EXPECT_EQ(points[1].origin.line, 12);
 }
@@ -93,9 +93,9 @@ TEST_F(TomlFile, KeepsEveryKindOfValueWithItsLine) {
 TEST_F(TomlFile, KnowsTheLineOfDottedKeysAndOfTablesThatNobodyOpened) {
   const Setting root = read_toml(written("\nvehicle.kind = \"drifter\"\n[a.b]\nc = 1\n"));
   EXPECT_EQ(root.find("vehicle")->origin.line, 2);
-  EXPECT_EQ(at(root, "vehicle", "kind").origin.line, 2);
+  EXPECT_EQ(entry(root, "vehicle", "kind").origin.line, 2);
   EXPECT_EQ(root.find("a")->origin.line, 3);
-  EXPECT_EQ(at(root, "a", "b").find("c")->origin.line, 4);
+  EXPECT_EQ(entry(root, "a", "b").find("c")->origin.line, 4);
 }
 
 TEST_F(TomlFile, KeepsTheOrderOfWriting) {
@@ -157,7 +157,7 @@ TEST_F(TomlFile, ReadsBackWhatWasWritten) {
   EXPECT_EQ(std::get<std::string>(second.find("title")->value), "a \"quoted\" \\ line\nand\ttab");
   EXPECT_EQ(std::get<double>(second.find("whole")->value), 300.0);
   EXPECT_EQ(std::get<double>(second.find("rate")->value), 0.1);
-  EXPECT_EQ(std::get<std::int64_t>(at(second, "table", "inner").find("x")->value), 1);
+  EXPECT_EQ(std::get<std::int64_t>(entry(second, "table", "inner").find("x")->value), 1);
   EXPECT_NE(second.find("bare"), nullptr);
   EXPECT_NE(second.find("odd key"), nullptr);
 }
@@ -237,7 +237,7 @@ TEST(SetOption, ReadsTheValueAsToml) {
 TEST(SetOption, TakesWhatIsNoTomlAsText) {
   const Setting root = with_sets({"behaviour.kind=rigid_registration", "f=../a b.nc",
                                   "t=2014-12-01", "e=", "q=a=b", "n=1.2.3", "two=1\nx = 2"});
-  EXPECT_EQ(std::get<std::string>(at(root, "behaviour", "kind").value), "rigid_registration");
+  EXPECT_EQ(std::get<std::string>(entry(root, "behaviour", "kind").value), "rigid_registration");
   EXPECT_EQ(std::get<std::string>(root.find("f")->value), "../a b.nc");
   EXPECT_EQ(std::get<std::string>(root.find("t")->value), "2014-12-01");
   EXPECT_EQ(std::get<std::string>(root.find("e")->value), "");
@@ -257,17 +257,17 @@ TEST(SetOption, RefusesABracketOrQuoteThatDoesNotClose) {
 TEST(SetOption, ATableReplacesOnlyTheKeysItNames) {
   const Setting root = with_sets({"plan.square={rows=5, columns=4}",
                                   "plan={square={rows=2, separation_m=30.0}, kind=\"square\"}"});
-  EXPECT_EQ(std::get<std::int64_t>(at(root, "plan", "square").find("rows")->value), 2);
-  EXPECT_EQ(std::get<std::int64_t>(at(root, "plan", "square").find("columns")->value), 4);
-  EXPECT_EQ(std::get<double>(at(root, "plan", "square").find("separation_m")->value), 30.0);
-  EXPECT_EQ(std::get<std::string>(at(root, "plan", "kind").value), "square");
+  EXPECT_EQ(std::get<std::int64_t>(entry(root, "plan", "square").find("rows")->value), 2);
+  EXPECT_EQ(std::get<std::int64_t>(entry(root, "plan", "square").find("columns")->value), 4);
+  EXPECT_EQ(std::get<double>(entry(root, "plan", "square").find("separation_m")->value), 30.0);
+  EXPECT_EQ(std::get<std::string>(entry(root, "plan", "kind").value), "square");
 }
 
 TEST(SetOption, ALaterOneOverridesAnEarlierOne) {
   const Setting root = with_sets({"trial.seed=1", "trial.seed=2"});
-  EXPECT_EQ(std::get<std::int64_t>(at(root, "trial", "seed").value), 2);
+  EXPECT_EQ(std::get<std::int64_t>(entry(root, "trial", "seed").value), 2);
   EXPECT_EQ(root.find("trial")->table().size(), 1u);
-  EXPECT_EQ(at(root, "trial", "seed").origin.prefix(), "--set trial.seed=2: ");
+  EXPECT_EQ(entry(root, "trial", "seed").origin.prefix(), "--set trial.seed=2: ");
   EXPECT_EQ(root.find("trial")->origin.prefix(), "--set trial.seed=1: ");
 }
 

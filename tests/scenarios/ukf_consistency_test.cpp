@@ -15,7 +15,7 @@ using Eigen::Vector2d;
 using Eigen::Vector4d;
 
 constexpr int runs = 4000;
-constexpr int steps = 40;
+constexpr int cycles = 40;
 
 /// Position and velocity in the plane; positions are measured.
 Vector4d glide(const Vector4d& x) {
@@ -48,7 +48,7 @@ Consistency consistency(double assumed) {
     Vector4d truth = start + start_sd.cwiseProduct(normals(run, 0));
     Ukf<4, 2> ukf(settings, start, start_sd.cwiseAbs2().asDiagonal());
     double nis = 0.0;
-    for (std::uint64_t k = 1; k <= steps; ++k) {
+    for (std::uint64_t k = 1; k <= cycles; ++k) {
       truth = glide(truth) + process_sd.cwiseProduct(normals(run, 2 * k));
       ukf.predict(glide);
       const Vector2d y =
@@ -167,7 +167,7 @@ Consistency with_memory(bool knows, bool gaps = false) {
     Remembering sensor;
     sensor.noise = sensor.sd.cwiseProduct(normals(run, 1).head<2>());
     double nis = 0.0;
-    for (std::uint64_t k = 1; k <= steps; ++k) {
+    for (std::uint64_t k = 1; k <= cycles; ++k) {
       truth = glide(truth) + Vector4d(0.02, 0.02, 0.05, 0.05).cwiseProduct(normals(run, 2 * k));
       ukf.predict(glide, place);
       Vector2d y = truth.head<2>() + sensor.next(normals(run, 2 * k + 1).head<2>());

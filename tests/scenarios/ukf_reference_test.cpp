@@ -106,7 +106,7 @@ struct CarAndBeacon {
   }
 };
 
-UkfSettings<4, 3> car_settings() {
+UkfSettings<4, 3> car_and_beacon_settings() {
   UkfSettings<4, 3> settings;
   settings.scaling = scaling("C1");
   settings.process_covariance = matrix<4, 4>("C1", "Rv");
@@ -130,18 +130,18 @@ void follows_the_car(const UkfSettings<4, 3>& settings) {
 }
 
 TEST(UkfReference, FollowsTheNonlinearCaseThroughMissingMeasurements) {
-  follows_the_car(car_settings());
+  follows_the_car(car_and_beacon_settings());
 }
 
 TEST(UkfReference, DeclaringAnglesChangesNothingWhileNoneComesRound) {
-  UkfSettings<4, 3> settings = car_settings();
+  UkfSettings<4, 3> settings = car_and_beacon_settings();
   settings.state_is_angle = {false, false, false, true};
   settings.measurement_is_angle = {false, true, false};
   follows_the_car(settings);
 }
 
 TEST(UkfReference, EveryIntermediateQuantityOfTheFirstStepAgrees) {
-  Ukf<4, 3> ukf(car_settings(), matrix<4, 1>("C1", "x0"), matrix<4, 4>("C1", "P0"));
+  Ukf<4, 3> ukf(car_and_beacon_settings(), matrix<4, 1>("C1", "x0"), matrix<4, 4>("C1", "P0"));
   Eigen::Matrix<double, 4, 9> sigma, propagated, redrawn;
   Eigen::Matrix<double, 3, 9> measured;
   int k = 0;

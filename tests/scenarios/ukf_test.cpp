@@ -6,6 +6,7 @@
 
 #include "shoal/core/random.hpp"
 #include "tests/support/allocation_count.hpp"
+#include "tests/support/nan_value.hpp"
 
 namespace shoal::scenarios {
 namespace {
@@ -14,8 +15,8 @@ using Eigen::Matrix2d;
 using Eigen::Matrix4d;
 using Eigen::Vector2d;
 using Eigen::Vector4d;
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-constexpr double pi = std::numbers::pi;
+using shoal::tests::nan_value;
+using std::numbers::pi;
 
 template <int N>
 auto same() {
@@ -125,7 +126,7 @@ TEST(Ukf, WithoutMeasurementsThePredictionStands) {
   ukf.predict(Car{});
   const Vector4d x = ukf.state();
   const Matrix4d P = ukf.covariance();
-  const auto& update = ukf.correct(Vector4d::Constant(nan), same<4>());
+  const auto& update = ukf.correct(Vector4d::Constant(nan_value), same<4>());
   EXPECT_EQ(ukf.state(), x);
   EXPECT_EQ(ukf.covariance(), P);
   EXPECT_EQ(update.used, 0);
@@ -139,7 +140,7 @@ TEST(Ukf, VarianceGrowsWhileAChannelIsAtFaultAndShrinksAfter) {
   for (int k = 0; k < 30; ++k) {
     ukf.predict(Car{});
     Vector4d y = ukf.state();
-    y(0) = nan;
+    y(0) = nan_value;
     ukf.correct(y, same<4>());
     EXPECT_GT(ukf.covariance()(0, 0), before);
     before = ukf.covariance()(0, 0);
@@ -159,7 +160,7 @@ TEST(Ukf, AFaultIsTheSameAsAFilterWithoutThatRow) {
   const Matrix2d P0 = (Matrix2d() << 1.0, 0.3, 0.3, 2.0).finished();
   Ukf<2, 2> deleted(both, Vector2d(1, 2), P0);
   Ukf<2, 1> without(first, Vector2d(1, 2), P0);
-  deleted.correct(Vector2d(1.5, nan), same<2>());
+  deleted.correct(Vector2d(1.5, nan_value), same<2>());
   without.correct(Eigen::Matrix<double, 1, 1>(1.5),
                   [](const Vector2d& x) { return Eigen::Matrix<double, 1, 1>(x(0)); });
   EXPECT_LT((deleted.state() - without.state()).norm(), 1e-14);
@@ -221,7 +222,7 @@ TEST(Ukf, FaultsBetweenOutliersDoNotStartTheCountAgain) {
   int readmitted = 0;
   for (int k = 0; k < 21; ++k) {
     ukf.predict(same<2>());
-    readmitted += ukf.correct(Vector2d(k % 2 == 0 ? 100.0 : nan, 0), same<2>()).readmitted[0];
+    readmitted += ukf.correct(Vector2d(k % 2 == 0 ? 100.0 : nan_value, 0), same<2>()).readmitted[0];
   }
   EXPECT_EQ(readmitted, 1);
 }
@@ -243,7 +244,7 @@ TEST(Ukf, RefusesWhatIsNoCovariance) {
        "initial covariance P_x(0) is not positive semidefinite: its smallest "
        "eigenvalue is -1");
   says(settings, skew, "not symmetric");
-  says(settings, good * nan, "not finite");
+  says(settings, good * nan_value, "not finite");
   settings.process_covariance = indefinite;
   says(settings, good, "process covariance R_v is not positive semidefinite");
   settings = still();
@@ -317,7 +318,7 @@ TEST(Ukf, AnAngleNobodyMeasuresBecomesUnknownButNotWrong) {
 TEST(Ukf, AllocatesNothing) {
   Ukf<4, 4> ukf = driven(3);
   Vector4d y = ukf.state();
-  y(1) = nan;
+  y(1) = nan_value;
   const std::size_t before = tests::heap_requests();
   for (int k = 0; k < 100; ++k) {
     ukf.predict(Car{});

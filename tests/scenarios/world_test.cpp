@@ -6,17 +6,13 @@
 #include <functional>
 
 #include "shoal/scenarios/toml_file.hpp"
+#include "tests/scenarios/scenario_of.hpp"
 #include "tests/support/allocation_count.hpp"
 
 namespace shoal::scenarios {
 namespace {
 
-/// A scenario of the given `key=value` settings.
-Scenario scenario(const std::vector<std::string>& sets) {
-  Setting root;
-  for (const std::string& set : sets) apply_set(root, set);
-  return read_scenario(root);
-}
+using tests::scenario_of;
 
 std::vector<std::string> with(std::vector<std::string> sets, std::vector<std::string> more) {
   sets.insert(sets.end(), more.begin(), more.end());
@@ -52,16 +48,16 @@ Final run(const Scenario& s, int threads = 1, double look_every_s = 0.0) {
 }
 
 TEST(World, TheSameSeedGivesTheSameBits) {
-  EXPECT_EQ(run(scenario(small)), run(scenario(small)));
-  EXPECT_NE(run(scenario(small)), run(scenario(with(small, {"trial.seed=2"}))));
-  EXPECT_NE(run(scenario(with(small, {"trial.seed=0"}))),
-            run(scenario(with(small, {"trial.seed=2"}))));
+  EXPECT_EQ(run(scenario_of(small)), run(scenario_of(small)));
+  EXPECT_NE(run(scenario_of(small)), run(scenario_of(with(small, {"trial.seed=2"}))));
+  EXPECT_NE(run(scenario_of(with(small, {"trial.seed=0"}))),
+            run(scenario_of(with(small, {"trial.seed=2"}))));
 }
 
 TEST(World, ThreadsDoNotChangeTheNumbers) {
   const Scenario many =
-      scenario({"plan.square={rows=12,columns=14}", "trial.duration_s=200",
-                "swarm.start.box.side_m=3000", "current.kind=vortex", "quality.every_s=0"});
+      scenario_of({"plan.square={rows=12,columns=14}", "trial.duration_s=200",
+                   "swarm.start.box.side_m=3000", "current.kind=vortex", "quality.every_s=0"});
   const Final one = run(many, 1);
   EXPECT_EQ(one, run(many, 2));
   EXPECT_EQ(one, run(many, 5));
@@ -70,8 +66,8 @@ TEST(World, ThreadsDoNotChangeTheNumbers) {
 TEST(World, AnEmptyBatteryStopsAVehicleIfItLimits) {
   const std::vector<std::string> poor =
       with(small, {"current.kind=uniform", "current.uniform.u_m_s=0.1", "energy.battery_wh=1"});
-  const Final rich = run(scenario(poor));
-  World world(scenario(with(poor, {"energy.battery=limits"})));
+  const Final rich = run(scenario_of(poor));
+  World world(scenario_of(with(poor, {"energy.battery=limits"})));
   std::vector<std::int64_t> pings;
   std::vector<double> x;
   Looker looker(300.0, [&](const World& w) {
@@ -102,35 +98,36 @@ TEST(World, AnEmptyBatteryStopsAVehicleIfItLimits) {
 }
 
 TEST(World, AnIgnoredBatteryIsOnlyCounted) {
-  World world(scenario(with(small, {"energy.battery_wh=1"})));
+  World world(scenario_of(with(small, {"energy.battery_wh=1"})));
   world.run({});
-  EXPECT_EQ(run(scenario(small)), run(scenario(with(small, {"energy.battery_wh=1"}))));
+  EXPECT_EQ(run(scenario_of(small)), run(scenario_of(with(small, {"energy.battery_wh=1"}))));
   EXPECT_GT(world.empty_s(0), 0.0);
   EXPECT_FALSE(world.stopped(0));
 }
 
 TEST(World, BeingLookedAtDoesNotChangeTheNumbers) {
-  EXPECT_EQ(run(scenario(small)), run(scenario(small), 1, 1.75));
+  EXPECT_EQ(run(scenario_of(small)), run(scenario_of(small), 1, 1.75));
 }
 
 TEST(World, TwoBehavioursMeetTheSameStarts) {
   const auto starts = [](const char* behaviour) {
-    const World world(scenario(with(small, {std::string("behaviour.kind=") + behaviour})));
+    const World world(scenario_of(with(small, {std::string("behaviour.kind=") + behaviour})));
     return std::pair(world.swarm().x_m, world.swarm().y_m);
   };
   EXPECT_EQ(starts("rigid_registration"), starts("assignment_registration"));
 }
 
 TEST(World, ANewVehicleDoesNotMoveTheOthersStarts) {
-  const World nine(scenario(small));
-  const World twelve(scenario(with(small, {"plan.square={rows=3,columns=4}"})));
+  const World nine(scenario_of(small));
+  const World twelve(scenario_of(with(small, {"plan.square={rows=3,columns=4}"})));
   for (std::size_t i = 0; i < 9; ++i) EXPECT_EQ(nine.swarm().x_m[i], twelve.swarm().x_m[i]);
 }
 
 TEST(World, AVehicleThatHearsNobodyDriftsAndSaysWhy) {
-  World world(scenario({"plan.square={rows=1,columns=2,separation_m=5000}", "swarm.start.kind=plan",
-                        "current.kind=uniform", "current.uniform={u_m_s=0.1,v_m_s=0.0}",
-                        "trial.duration_s=600", "quality.every_s=0"}));
+  World world(
+      scenario_of({"plan.square={rows=1,columns=2,separation_m=5000}", "swarm.start.kind=plan",
+                   "current.kind=uniform", "current.uniform={u_m_s=0.1,v_m_s=0.0}",
+                   "trial.duration_s=600", "quality.every_s=0"}));
   world.run({});
   for (std::size_t i = 0; i < 2; ++i) {
     EXPECT_EQ(world.planner(i).last_target().reason, formations::Reason::no_neighbour);
@@ -145,8 +142,8 @@ TEST(World, AVehicleThatHearsNobodyDriftsAndSaysWhy) {
 
 TEST(World, ForgottenNeighboursLeaveAVehicleDrifting) {
   // All others fall silent at once: two minutes later the last one has nobody to go by.
-  World world(scenario({"plan.square={rows=1,columns=2}", "trial.duration_s=600",
-                        "faults.node_loss={every_s=100,count=1}", "quality.every_s=0"}));
+  World world(scenario_of({"plan.square={rows=1,columns=2}", "trial.duration_s=600",
+                           "faults.node_loss={every_s=100,count=1}", "quality.every_s=0"}));
   std::vector<formations::Reason> reasons;
   Looker looker(50.0, [&](const World& w) {
     const std::size_t left = w.lost(0) ? 1 : 0;
@@ -161,7 +158,7 @@ TEST(World, ForgottenNeighboursLeaveAVehicleDrifting) {
 }
 
 TEST(World, LosesVehiclesWhenTheScenarioSaysSo) {
-  World world(scenario(with(small, {"faults.node_loss={every_s=100,count=4}"})));
+  World world(scenario_of(with(small, {"faults.node_loss={every_s=100,count=4}"})));
   std::vector<std::size_t> lost;
   Looker looker(50.0, [&](const World& w) { lost.push_back(w.lost_count()); });
   Observer* observers[] = {&looker};
@@ -173,13 +170,13 @@ TEST(World, LosesVehiclesWhenTheScenarioSaysSo) {
 }
 
 TEST(World, EveryVehicleMayBeLost) {
-  World world(scenario(with(small, {"faults.node_loss={every_s=10,count=50}"})));
+  World world(scenario_of(with(small, {"faults.node_loss={every_s=10,count=50}"})));
   world.run({});
   EXPECT_EQ(world.lost_count(), 9u);
 }
 
 TEST(World, StaggeredPingsAreSpreadOverThePeriod) {
-  World world(scenario(with(small, {"ping.schedule=staggered", "trial.duration_s=29"})));
+  World world(scenario_of(with(small, {"ping.schedule=staggered", "trial.duration_s=29"})));
   std::vector<std::int64_t> sent;
   Looker looker(1.0, [&](const World& w) {
     std::int64_t all = 0;
@@ -195,9 +192,9 @@ TEST(World, StaggeredPingsAreSpreadOverThePeriod) {
 
 TEST(World, WithoutIdsTheIdFreeBehavioursStillForm) {
   for (const std::string behaviour : {"attraction_repulsion", "assignment_registration"}) {
-    const Scenario s = scenario({"plan.square={rows=3,columns=3}", "trial.duration_s=1800",
-                                 "behaviour.kind=" + behaviour, "ping.identified=false",
-                                 "swarm.start.kind=plan", "quality.every_s=0"});
+    const Scenario s = scenario_of({"plan.square={rows=3,columns=3}", "trial.duration_s=1800",
+                                    "behaviour.kind=" + behaviour, "ping.identified=false",
+                                    "swarm.start.kind=plan", "quality.every_s=0"});
     World world(s);
     world.run({});
     for (std::size_t i = 0; i < world.size(); ++i) {
@@ -209,8 +206,8 @@ TEST(World, WithoutIdsTheIdFreeBehavioursStillForm) {
 TEST(World, NothingIsAllocatedInTheSteadyState) {
   for (const std::string behaviour :
        {"rigid_registration", "pairwise_referencing", "assignment_registration"}) {
-    World world(scenario({"behaviour.kind=" + behaviour, "swarm.start.kind=plan",
-                          "trial.duration_s=3000", "current.kind=none", "quality.every_s=0"}));
+    World world(scenario_of({"behaviour.kind=" + behaviour, "swarm.start.kind=plan",
+                             "trial.duration_s=3000", "current.kind=none", "quality.every_s=0"}));
     std::vector<std::size_t> counts;
     counts.reserve(100);
     Looker looker(100.0, [&](const World&) { counts.push_back(tests::allocations()); });
@@ -221,7 +218,7 @@ TEST(World, NothingIsAllocatedInTheSteadyState) {
 }
 
 TEST(World, RefusesASwarmOfOne) {
-  EXPECT_THROW(World(scenario({"plan.square={rows=1,columns=1}"})), InputError);
+  EXPECT_THROW(World(scenario_of({"plan.square={rows=1,columns=1}"})), InputError);
 }
 
 }  // namespace

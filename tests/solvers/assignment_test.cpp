@@ -9,10 +9,10 @@
 #include <numeric>
 #include <random>
 
+#include "shoal/solvers/matching/points.hpp"
+
 namespace shoal::solvers {
 namespace {
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 struct Matrix {
   int rows = 0, columns = 0;

@@ -12,13 +12,14 @@
 #include "shoal/solvers/autodiff.hpp"
 #include "shoal/solvers/least_squares.hpp"
 #include "shoal/solvers/solver.hpp"
+#include "tests/support/nan_value.hpp"
 #include "tests/support/test_name.hpp"
 
 namespace shoal::solvers {
 namespace {
 
 using Eigen::Vector2d;
-constexpr double nan_value = std::numeric_limits<double>::quiet_NaN();
+using shoal::tests::nan_value;
 
 // (x - 3)^2 + 2 (y + 2)^2, as residuals, so that all solvers take it.
 struct Bowl {
@@ -428,7 +429,7 @@ TEST(SolversThatDraw, DrawOtherNumbersWithAnotherSeed) {
 
 INSTANTIATE_TEST_SUITE_P(Solvers, EverySolver,
                          testing::ValuesIn(Registry<Solver>::instance().names()),
-                         [](const auto& tested) { return tests::test_name(tested.param); });
+                         [](const auto& tested) { return shoal::tests::test_name(tested.param); });
 
 }  // namespace
 }  // namespace shoal::solvers

@@ -217,12 +217,12 @@ TEST(RegistrationByDescent, SaysWhenItsEvaluationsRanOut) {
   }
 }
 
-struct MyError : std::runtime_error {
+struct LossError : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
 struct Throwing final : Loss {
-  LossValue at(double) const override { throw MyError("no loss today"); }
+  LossValue at(double) const override { throw LossError("no loss today"); }
 };
 
 struct NotANumber final : Loss {
@@ -237,7 +237,7 @@ TEST(RegistrationByDescent, LetsTheExceptionOfTheLossThroughAndSaysWhereNoCostIs
     try {
       solver(with)->solve({pairs, &throwing});
       ADD_FAILURE() << with << " swallowed the exception";
-    } catch (const MyError& error) {
+    } catch (const LossError& error) {
       EXPECT_STREQ(error.what(), "no loss today") << with;
     }
     const RegistrationSolution solution = solver(with)->solve({pairs, &not_a_number});

@@ -10,7 +10,7 @@ namespace {
 constexpr double scale_m = 2.0;
 
 /// A loss of scale 2 m, if it has a scale.
-std::unique_ptr<Loss> loss(const std::string& name) {
+std::unique_ptr<Loss> scaled_loss(const std::string& name) {
   const auto& losses = Registry<Loss>::instance();
   Setting options;
   if (losses.find(name) && losses.find(name)->schema().find("scale_m")) {
@@ -29,7 +29,7 @@ std::vector<double> squares() {
 
 class EnrolledLoss : public testing::TestWithParam<std::string> {
  protected:
-  const std::unique_ptr<Loss> tested = loss(GetParam());
+  const std::unique_ptr<Loss> tested = scaled_loss(GetParam());
 };
 
 TEST_P(EnrolledLoss, HasTheDerivativesThatDifferencesShow) {
@@ -90,7 +90,7 @@ INSTANTIATE_TEST_SUITE_P(Losses, EnrolledLoss,
                          [](const auto& tested) { return tested.param; });
 
 void expect_loss(const std::string& name, double squared, const LossValue& by_hand) {
-  const LossValue found = loss(name)->at(squared);
+  const LossValue found = scaled_loss(name)->at(squared);
   EXPECT_NEAR(found.value, by_hand.value, 1e-14) << name << " of " << squared;
   EXPECT_NEAR(found.slope, by_hand.slope, 1e-15) << name << " of " << squared;
   EXPECT_NEAR(found.curvature, by_hand.curvature, 1e-15) << name << " of " << squared;

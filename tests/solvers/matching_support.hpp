@@ -8,7 +8,7 @@
 #include "shoal/solvers/matching/assignment.hpp"
 #include "shoal/solvers/matching/rotation_search.hpp"
 
-namespace shoal::tests {
+namespace shoal::solvers::tests {
 
 inline std::vector<Eigen::Vector2d> lattice(int columns, int rows, double separation_m) {
   std::vector<Eigen::Vector2d> slots;
@@ -38,16 +38,16 @@ inline double assignment_cost(const std::vector<Eigen::Vector2d>& points,
   for (const auto& p : moved(points, Transform2::from_angle(angle, {0, 0}))) {
     for (const auto& slot : slots) costs.push_back((p - slot).norm());
   }
-  solvers::AssignmentSolver solver;
+  AssignmentSolver solver;
   solver.solve(costs, static_cast<int>(points.size()), static_cast<int>(slots.size()));
   return solver.cost();
 }
 
-inline solvers::TurnedMatch first_of_the_least(const std::vector<double>& costs) {
+inline TurnedMatch first_of_the_least(const std::vector<double>& costs) {
   const double least = *std::min_element(costs.begin(), costs.end());
   for (std::size_t i = 0;; ++i) {
-    if (costs[i] <= least + solvers::cost_tie_m) return {static_cast<int>(i), costs[i]};
+    if (costs[i] <= least + cost_tie_m) return {static_cast<int>(i), costs[i]};
   }
 }
 
-}  // namespace shoal::tests
+}  // namespace shoal::solvers::tests

@@ -11,6 +11,7 @@
 
 #include "shoal/solvers/autodiff.hpp"
 #include "shoal/solvers/least_squares.hpp"
+#include "shoal/solvers/matching/points.hpp"
 #include "tests/solvers/problem_costs.hpp"
 
 namespace shoal::solvers::tests {
@@ -24,8 +25,6 @@ using Vector = Problem::Vector;
 using Vector1d = Eigen::Matrix<double, 1, 1>;
 using Vector6d = Eigen::Matrix<double, 6, 1>;
 using std::numbers::pi;
-constexpr double infinity = std::numeric_limits<double>::infinity();
-
 // How they are posed ----------------------------------------------------------------------------
 
 template <int N, class Residuals>
@@ -33,7 +32,7 @@ Problem least_squares(const Vector& start, const Residuals& residuals) {
   return least_squares_problem(start, {differentiated_blocks<N>(residuals), nullptr, {}});
 }
 
-std::shared_ptr<const Loss> loss(const std::string& kind, double scale_m) {
+std::shared_ptr<const Loss> shared_loss(const std::string& kind, double scale_m) {
   Setting options;
   options.at_or_new("scale_m").value = scale_m;
   return Registry<Loss>::instance().make(kind, options, "loss." + kind);
@@ -217,12 +216,12 @@ void add_formation(std::vector<KnownProblem>& all) {
   const auto places = differentiated_blocks<2>(ImpliedPlaces{});
   const Vector2d mean(39.0, -79.0 / 3.0);
   all.push_back(known("placement_huber", "ours: a point among places and an outlier",
-                      least_squares_problem(mean, {places, loss("huber", 10.0), {}}),
+                      least_squares_problem(mean, {places, shared_loss("huber", 10.0), {}}),
                       5808.0309235580935, {Vector2d(5.5484287217398309, -1.6865441434066115)}));
   all.push_back(with_higher_minima(
       known("placement_cauchy", "ours: the same with another loss",
-            least_squares_problem(mean, {places, loss("cauchy", 10.0), {}}), 1027.1896419363693,
-            {Vector2d(4.3044363881433849, 0.17772940825424816)})));
+            least_squares_problem(mean, {places, shared_loss("cauchy", 10.0), {}}),
+            1027.1896419363693, {Vector2d(4.3044363881433849, 0.17772940825424816)})));
 
   const std::vector<double> weights{0.5, 1.0, 1.0, 1.0, 1.0};
   all.push_back(known(
@@ -234,8 +233,8 @@ void add_formation(std::vector<KnownProblem>& all) {
   mistaken.seen[3] = {563.1, -53.3};
   all.push_back(known(
       "registration_huber", "ours: the same with one slot taken for another",
-      least_squares_problem(Vector3d(0.0, 0.0, 0.0),
-                            {differentiated_blocks<3>(mistaken), loss("huber", 30.0), weights}),
+      least_squares_problem(Vector3d(0.0, 0.0, 0.0), {differentiated_blocks<3>(mistaken),
+                                                      shared_loss("huber", 30.0), weights}),
       29190.207682311062, {Vector3d(126.3233594290174, 122.73138415974782, -47.349307970266238)}));
 }
 

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "shoal/core/angles.hpp"
+#include "shoal/solvers/matching/points.hpp"
 #include "shoal/solvers/registration/registration.hpp"
 
 namespace shoal::solvers {
@@ -24,7 +25,7 @@ RegistrationSolution fit(const std::vector<Pair>& pairs) {
   return sums.solve();
 }
 
-double cost_of(const Transform2& motion, const std::vector<Pair>& pairs) {
+double sum_of_squares(const Transform2& motion, const std::vector<Pair>& pairs) {
   double cost = 0.0;
   for (const Pair& p : pairs) cost += p.weight * (motion * p.from - p.to).squaredNorm();
   return cost;
@@ -88,13 +89,13 @@ TEST(Procrustes, IsNotBeatenByANeighbouringMotionAndReportsItsOwnCost) {
     const auto pairs = any_pairs();
     const auto solution = fit(pairs);
     RC_PRE(solution.status == RegistrationStatus::fitted);
-    const double cost = cost_of(solution.T_to_from, pairs);
+    const double cost = sum_of_squares(solution.T_to_from, pairs);
     RC_ASSERT(std::abs(cost - solution.cost) < 1e-11 * (1.0 + cost) * 100.0);
     const Transform2& best = solution.T_to_from;
     for (const double turn : {-0.01, 0.0, 0.01}) {
       for (const Vector2d& shift : {Vector2d(0, 0), Vector2d(0.5, 0), Vector2d(0, -0.5)}) {
         const auto other = Transform2::from_angle(best.angle() + turn, best.translation + shift);
-        RC_ASSERT(cost_of(other, pairs) >= cost - 1e-9 * (1.0 + cost));
+        RC_ASSERT(sum_of_squares(other, pairs) >= cost - 1e-9 * (1.0 + cost));
       }
     }
   }));
@@ -135,7 +136,7 @@ TEST(Procrustes, NeverAnswersWithAReflection) {
     const auto solution = fit(pairs);
     const Transform2& t = solution.T_to_from;
     RC_ASSERT(std::abs(t.cosine * t.cosine + t.sine * t.sine - 1.0) < 1e-14);
-    RC_ASSERT(std::abs(solution.cost - cost_of(t, pairs)) < 1e-8 * (1.0 + solution.cost));
+    RC_ASSERT(std::abs(solution.cost - sum_of_squares(t, pairs)) < 1e-8 * (1.0 + solution.cost));
   }));
 }
 
@@ -174,7 +175,6 @@ TEST(Procrustes, IgnoresPairsOfWeightZero) {
 
 TEST(Procrustes, RefusesWhatItCannotWeighOrRead) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
-  const double infinity = std::numeric_limits<double>::infinity();
   EXPECT_FALSE(fit({{{0, nan}, {1, 1}}}).usable());
   EXPECT_FALSE(fit({{{0, 0}, {1, infinity}}}).usable());
   EXPECT_FALSE(fit({}).usable());

@@ -14,12 +14,13 @@
 #include <vector>
 
 #include "shoal/solvers/registration/registration.hpp"
+#include "tests/support/nan_value.hpp"
 
 namespace shoal::solvers::tests {
 
 using Eigen::Vector2d;
 using Pairs = std::vector<PointPair>;
-inline constexpr double nan_value = std::numeric_limits<double>::quiet_NaN();
+using shoal::tests::nan_value;
 inline constexpr double pi = std::numbers::pi;
 
 inline std::unique_ptr<Loss> loss(const std::string& name, double scale_m = 0.0) {

@@ -1,6 +1,7 @@
 // What holds for every enrolled solver of the family with every loss.
 
 #include "shoal/solvers/registration/registration.hpp"
+#include "shoal/solvers/matching/points.hpp"
 
 #include <gtest/gtest.h>
 #include <rapidcheck.h>
@@ -100,7 +101,6 @@ TEST_P(EnrolledRegistration, AnswersDegenerateSetsWithAStatus) {
 }
 
 TEST_P(EnrolledRegistration, RefusesWhatItCannotWeighOrRead) {
-  const double infinity = std::numeric_limits<double>::infinity();
   for (const Pairs& wrong : {
            Pairs{},
            Pairs{{{0, 0}, {1, 1}, 0.0}},

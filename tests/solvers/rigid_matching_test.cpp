@@ -12,6 +12,7 @@
 #include <set>
 #include <stdexcept>
 
+#include "shoal/solvers/matching/points.hpp"
 #include "tests/solvers/matching_support.hpp"
 
 namespace shoal::solvers {
@@ -23,8 +24,7 @@ using tests::assignment_cost;
 using tests::lattice;
 using tests::moved;
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
-constexpr RigidMatchingOptions patient{.tolerance_m = 0.01, .budget = 2'000'000};
+constexpr RigidMatchingOptions patient_options{.tolerance_m = 0.01, .budget = 2'000'000};
 
 Points hexagonal(int columns, int rows, double separation_m) {
   Points slots;
@@ -58,7 +58,7 @@ Points some_of(Points points, std::size_t left, unsigned seed) {
   return points;
 }
 
-Transform2 any_motion() {
+Transform2 any_far_motion() {
   const double angle = *rc::gen::inRange(-3141, 3142) * 1e-3;
   return Transform2::from_angle(
       angle, Vector2d(*rc::gen::inRange(-9000, 9000), *rc::gen::inRange(-9000, 9000)));
@@ -84,12 +84,12 @@ void expect_sound(const RigidMatching& matching, const RigidMatch& match, const 
   EXPECT_LE(match.lower_bound_m, match.mean_m);
   EXPECT_GE(match.lower_bound_m, 0.0);
   if (match.status == RigidMatchStatus::exact) {
-    EXPECT_LE(match.mean_m - match.lower_bound_m, patient.tolerance_m + 1e-6);
+    EXPECT_LE(match.mean_m - match.lower_bound_m, patient_options.tolerance_m + 1e-6);
   }
 }
 
 RigidMatch matched(const Points& points, const Points& slots) {
-  RigidMatching matching(slots, patient);
+  RigidMatching matching(slots, patient_options);
   const RigidMatch match = matching.match(points);
   expect_sound(matching, match, points, slots);
   return match;
@@ -184,7 +184,7 @@ TEST(RigidMatching, AgreesWithAllAssignmentsOfAFew) {
     EXPECT_LE(match.lower_bound_m, least + 1e-6) << seed;
     EXPECT_GE(match.mean_m, least - 1e-3) << seed;
     if (match.status != RigidMatchStatus::exact) continue;
-    EXPECT_LE(match.mean_m, least + patient.tolerance_m) << seed;
+    EXPECT_LE(match.mean_m, least + patient_options.tolerance_m) << seed;
   }
 }
 
@@ -193,7 +193,7 @@ TEST(RigidMatching, AgreesWithAllAssignmentsOfFiveToEight) {
   const Points points = scattered(some_of(slots, 5, 2), 60.0, 9);
   const RigidMatch match = matched(points, slots);
   const double least = by_trying_all(points, slots);
-  EXPECT_NEAR(match.mean_m, least, patient.tolerance_m);
+  EXPECT_NEAR(match.mean_m, least, patient_options.tolerance_m);
   EXPECT_LE(match.lower_bound_m, least + 1e-6);
   EXPECT_GT(match.lower_bound_m, least - 1.0);
 }
@@ -225,28 +225,28 @@ TEST(RigidMatching, IsZeroForAnyPartOfThePlanHoweverItLies) {
     const auto left = static_cast<std::size_t>(*rc::gen::inRange(1, 21));
     const unsigned seed = *rc::gen::arbitrary<unsigned>();
     const Points part = some_of(slots, std::min(left, slots.size()), seed);
-    const RigidMatch match = matched(moved(part, any_motion()), slots);
-    RC_ASSERT(match.mean_m < (slots.size() > 12 ? 1e-6 : patient.tolerance_m));
+    const RigidMatch match = matched(moved(part, any_far_motion()), slots);
+    RC_ASSERT(match.mean_m < (slots.size() > 12 ? 1e-6 : patient_options.tolerance_m));
     RC_ASSERT(match.status == RigidMatchStatus::exact);
   }));
 }
 
 TEST(RigidMatching, DoesNotDependOnMotionOrNamesOrThePrior) {
   const Points slots = hexagonal(7, 7, 300.0);
-  RigidMatching matching(slots, patient);
+  RigidMatching matching(slots, patient_options);
   EXPECT_TRUE(rc::check("invariance", [&] {
     const unsigned seed = *rc::gen::arbitrary<unsigned>();
     const Points points = scattered(hexagonal(4, 4, 300.0), 8.0, seed);
     const RigidMatch plain = matching.match(points);
     RC_ASSERT(plain.status == RigidMatchStatus::exact);
-    const Transform2 T = any_motion();
+    const Transform2 T = any_far_motion();
     const Points other = moved(some_of(points, points.size(), seed), T);
     const RigidMatch cold = matching.match(other);
     const RigidMatch warm = matching.match(other, plain.T_slots_points * T.inverse());
-    const RigidMatch misled = matching.match(other, any_motion());
+    const RigidMatch misled = matching.match(other, any_far_motion());
     for (const RigidMatch& match : {cold, warm, misled}) {
       RC_ASSERT(match.status == RigidMatchStatus::exact);
-      RC_ASSERT(std::abs(match.mean_m - plain.mean_m) <= patient.tolerance_m);
+      RC_ASSERT(std::abs(match.mean_m - plain.mean_m) <= patient_options.tolerance_m);
     }
   }));
 }
@@ -257,7 +257,7 @@ TEST(RigidMatching, DoesNotReflect) {
   for (Vector2d& p : mirrored) p.x() = -p.x();
   const RigidMatch match = matched(mirrored, slots);
   EXPECT_GT(match.mean_m, 20.0);
-  EXPECT_NEAR(match.mean_m, by_trying_all(mirrored, slots), patient.tolerance_m);
+  EXPECT_NEAR(match.mean_m, by_trying_all(mirrored, slots), patient_options.tolerance_m);
 }
 
 TEST(RigidMatching, TakesSwarmsOfNoExtent) {
@@ -269,12 +269,12 @@ TEST(RigidMatching, TakesSwarmsOfNoExtent) {
     EXPECT_EQ(match.status, RigidMatchStatus::exact) << points.size();
   }
   EXPECT_NEAR(matched({{0, 0}, {150, 0}}, slots).mean_m, 0.5 * (150.0 - 100.0 * std::sqrt(2.0)),
-              patient.tolerance_m);
+              patient_options.tolerance_m);
   // In one place: their sum of distances to two slots 100 m apart is 100 m.
-  EXPECT_NEAR(matched({{7, 7}, {7, 7}}, slots).mean_m, 50.0, patient.tolerance_m);
+  EXPECT_NEAR(matched({{7, 7}, {7, 7}}, slots).mean_m, 50.0, patient_options.tolerance_m);
   // To three of a square: the geometric median of a right-angled isosceles triangle.
   EXPECT_NEAR(matched({{7, 7}, {7, 7}, {7, 7}}, slots).mean_m,
-              100.0 * (1.0 + std::sqrt(3.0)) / std::sqrt(2.0) / 3.0, patient.tolerance_m);
+              100.0 * (1.0 + std::sqrt(3.0)) / std::sqrt(2.0) / 3.0, patient_options.tolerance_m);
   EXPECT_NEAR(matched({{9, 9}}, {{3, 4}}).mean_m, 0.0, 1e-9);
 }
 

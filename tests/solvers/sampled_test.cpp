@@ -78,7 +78,7 @@ TurnedMatch plain_loop(const std::vector<Vector2d>& points, const std::vector<Ve
   return tests::first_of_the_least(cost_of_seed);
 }
 
-std::vector<Vector2d> hexagonal(int columns, int rows, double separation_m) {
+std::vector<Vector2d> hexagonal_by_rows(int columns, int rows, double separation_m) {
   std::vector<Vector2d> slots;
   for (int j = 0; j < rows; ++j) {
     for (int i = 0; i < columns; ++i) {
@@ -90,7 +90,8 @@ std::vector<Vector2d> hexagonal(int columns, int rows, double separation_m) {
 
 TEST(Sampled, CostsWhatThePlainLoopOverSeedsAndTurnsCosts) {
   std::mt19937 generator(2);
-  const std::vector plans{lattice(4, 5, 300.0), hexagonal(4, 5, 300.0), lattice(3, 3, 100.0)};
+  const std::vector plans{lattice(4, 5, 300.0), hexagonal_by_rows(4, 5, 300.0),
+                          lattice(3, 3, 100.0)};
   for (int trial = 0; trial < 48; ++trial) {
     const auto& slots = plans[static_cast<std::size_t>(trial % 3)];
     const Choices choices{.delta_theta_deg = trial % 2 == 0 ? 10.0 : 33.0,
@@ -128,7 +129,7 @@ std::vector<Vector2d> seen_at(int step, const std::vector<Vector2d>& slots,
 
 TEST(Sampled, TellsWhoAsksAgainWhatItTellsAnybody) {
   std::mt19937 generator(4);
-  const std::vector plans{lattice(4, 5, 300.0), hexagonal(4, 5, 300.0)};
+  const std::vector plans{lattice(4, 5, 300.0), hexagonal_by_rows(4, 5, 300.0)};
   for (const double delta_theta_deg : {10.0, 45.0}) {
     for (int step = 0; step < 800; ++step) {
       // Two vehicles take turns; now and then they are asked about another plan.
