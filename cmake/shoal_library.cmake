@@ -12,7 +12,10 @@ target_compile_options(shoal_warnings INTERFACE -Wall -Wextra -Wpedantic -Wshado
                        # At -O3 these three of GCC 12 report code of Eigen and of libstdc++ itself
                        # (GCC bug 105651 and its like); the sanitizers look for the real thing.
                        $<$<CXX_COMPILER_ID:GNU>:-Wno-restrict -Wno-array-bounds
-                       -Wno-maybe-uninitialized>)
+                       -Wno-maybe-uninitialized
+                       # A source of a unity build counts as a header, in which no class may have
+                       # members of an anonymous namespace's types.
+                       $<$<BOOL:${CMAKE_UNITY_BUILD}>:-Wno-subobject-linkage>>)
 
 # shoal_library(LAYER PUBLIC ... PRIVATE ...): every .cpp of the layer, as a shared library.
 #
