@@ -195,9 +195,14 @@ std::optional<TwoGroups> two_groups(Sample values) {
     // The means of both sides lie sum / below and -sum / above from the mean of all.
     const double between = sum * sum * (1.0 / below + 1.0 / above);
     if (x[k] == x[k - 1] || between <= best.explained * all) continue;
-    best = {static_cast<int>(k), static_cast<int>(x.size() - k), centre + sum / below,
-            centre - sum / above, between / all};
+    best = {.low_n = static_cast<int>(k),
+            .high_n = static_cast<int>(x.size() - k),
+            .explained = between / all};
   }
+  // From the numbers themselves: zeros have the mean zero.
+  const auto low_n = static_cast<std::size_t>(best.low_n);
+  best.low_mean = mean(Sample(x).first(low_n));
+  best.high_mean = mean(Sample(x).subspan(low_n));
   return best;
 }
 

@@ -159,6 +159,7 @@ std::string verdict_note(const Judgement& judgement) {
   std::string text =
       "Intervals are of 95 %. Reproduced: all comparisons of a statement are as claimed, by their "
       "p-values; contradicted: one is not, or falls short of the smallest effect that matters. ";
+  if (judgement.family == 0) return text + "None of these verdicts rests on a p-value.";
   if (judgement.correction == Correction::none) return text + "Not corrected for their number.";
   return text +
          fmt::format("p-values are corrected by Holm's method over {} verdicts.", judgement.family);

@@ -258,6 +258,7 @@ TEST_F(Claims, OnEachTrialNeedAllOfThem) {
             "from 10 to 10 Wh, claimed at most 11 Wh, 7 of 8 trials have a value: trials without a "
             "value may differ");
   EXPECT_EQ(judgement.family, 0) << "nothing is inferred";
+  EXPECT_TRUE(verdict_note(judgement).ends_with("None of these verdicts rests on a p-value."));
 }
 
 TEST_F(Claims, OnSharesAreExact) {

@@ -71,6 +71,14 @@ TEST(Chances, OfNormalAndUniformSamplesAreTheirLevel) {
   EXPECT_NEAR(skewed / static_cast<double>(repetitions), 0.05, 4.0 * error);
 }
 
+TEST(TwoGroups, OfSharesAreExactlyZeroAndOne) {
+  std::vector<double> shares(96, 1.0);
+  std::fill_n(shares.begin(), 8, 0.0);
+  const auto groups = two_groups(shares);
+  EXPECT_EQ(groups->low_mean, 0.0);
+  EXPECT_EQ(groups->high_mean, 1.0);
+}
+
 TEST(TwoGroups, AreTheBestSplit) {
   const auto groups = two_groups(std::vector{121.0, 42.0, 41.0, 43.0, 122.0, 42.0});
   ASSERT_TRUE(groups);
