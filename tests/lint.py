@@ -1,9 +1,11 @@
 #!/usr/bin/env python3
-"""tests/lint.py BUILD_DIR: clang-format and clang-tidy on everything of ours.
+"""tests/lint.py BUILD_DIR...: clang-format and clang-tidy on everything of ours.
 
-A source that clang-tidy found clean is not read again while neither it nor what it includes, its
-compile command or the checks have changed: the key of all that is kept in the user's cache, which
-any clone may use. Delete ~/.cache/shoal/clang-tidy to begin anew.
+Sources that a unity build compiles as one are read as one, which takes a quarter of the time; give
+such a build first, and then others for what it leaves out. What clang-tidy found clean is not read
+again while neither it nor what it includes, its compile command or the checks have changed: the key
+of all that is kept in the user's cache, which any clone may use. Delete ~/.cache/shoal/clang-tidy to
+begin anew.
 """
 
 import concurrent.futures
@@ -58,7 +60,7 @@ def key_of(command, included, build, checks):
         inside = path.is_relative_to(TOP)
         digest.update(str(path.relative_to(TOP) if inside else path).encode())
         if inside:
-            digest.update(path.read_bytes())
+            digest.update(path.read_bytes().replace(str(TOP).encode(), b""))
         else:
             digest.update(str(path.stat().st_mtime_ns).encode())
     return digest.hexdigest()
@@ -66,34 +68,46 @@ def key_of(command, included, build, checks):
 
 def tidy(source, build):
     done = subprocess.run(
-        ["clang-tidy", "-p", build, "--quiet", "--extra-arg=-Wno-unknown-warning-option", source],
+        ["clang-tidy", "-p", build, "--quiet", "--checks=-bugprone-suspicious-include",
+         "--extra-arg=-Wno-unknown-warning-option", source],
         capture_output=True, text=True)
     complaints = "\n".join(l for l in done.stderr.splitlines() if not re.search(r"warnings? .*generated", l))
     return done.returncode, done.stdout + complaints
 
 
-def check_tidy(build):
+def sources_of(compiled):
+    """What a compiled file consists of: itself, or the sources that a unity build put into it."""
+    if "/Unity/" not in compiled:
+        return {compiled}
+    return set(re.findall(r'^#include "(.+)"', pathlib.Path(compiled).read_text(), re.MULTILINE))
+
+
+def check_tidy(builds):
     version = subprocess.run(["clang-tidy", "--version"], check=True, capture_output=True).stdout
     checks = version + (TOP / ".clang-tidy").read_bytes()
-    commands = {c["file"]: c for c in json.loads(pathlib.Path(build, "compile_commands.json").read_text())}
-    included = included_files(build)
     CACHE.mkdir(parents=True, exist_ok=True)
 
-    waiting = []
-    sources = [str(s) for s in files(LINTED, ".cpp")]
-    for source in sources:
-        if source not in commands:
-            sys.exit(f"lint: {source} is not compiled, so it cannot be checked")
-        command = commands[source]
-        built_from = included.get(object_of(command))
-        key = key_of(command, built_from, build, checks) if built_from else None
-        if key is None or not (CACHE / key).exists():
-            waiting.append((source, key))
-    print(f"clang-tidy: {len(sources)} sources, {len(sources) - len(waiting)} known to be clean", flush=True)
+    left = {str(s) for s in files(LINTED, ".cpp")}
+    waiting, read = [], 0
+    for build in builds:
+        included = included_files(build)
+        for command in json.loads(pathlib.Path(build, "compile_commands.json").read_text()):
+            wanted = sources_of(command["file"]) & left
+            if not wanted:
+                continue
+            left -= wanted
+            read += 1
+            built_from = included.get(object_of(command))
+            key = key_of(command, built_from, build, checks) if built_from else None
+            if key is None or not (CACHE / key).exists():
+                waiting.append((command["file"], build, key))
+    if left:
+        sys.exit(f"lint: not compiled, so not checked: {', '.join(sorted(left))}")
+    print(f"clang-tidy: {read} compiled files, {read - len(waiting)} known to be clean", flush=True)
 
     failed = 0
     with concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
-        work = {pool.submit(tidy, source, build): key for source, key in waiting}
+        work = {pool.submit(tidy, source, build): key for source, build, key in waiting}
         for done in concurrent.futures.as_completed(work):
             status, text = done.result()
             if text:
@@ -103,8 +117,8 @@ def check_tidy(build):
             elif work[done]:
                 (CACHE / work[done]).touch()
     if failed:
-        sys.exit(f"lint: {failed} sources have complaints")
+        sys.exit(f"lint: {failed} files have complaints")
 
 
 check_format()
-check_tidy(str(pathlib.Path(sys.argv[1]).resolve()))
+check_tidy([str(pathlib.Path(build).resolve()) for build in sys.argv[1:]])

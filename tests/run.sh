@@ -21,12 +21,12 @@ ctest --test-dir build/ci --output-on-failure
 step 'every solver on every known problem'
 build/ci/bin/solvers_test --gtest_brief=1 --gtest_filter='SolverMatrix.*'
 
-step 'format and lint'
-/usr/bin/python3 tests/lint.py build/ci
-
 step 'sanitizers'
 cmake --preset asan >/dev/null
 cmake --build --preset asan
 ctest --test-dir build/asan --output-on-failure --exclude-regex 'install|python|browser|slurm'
+
+step 'format and lint'
+/usr/bin/python3 tests/lint.py build/asan build/ci
 
 step 'done'
