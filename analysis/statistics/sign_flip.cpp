@@ -13,7 +13,7 @@
 namespace shoal::analysis::statistics {
 namespace {
 
-constexpr std::size_t most_exact_terms = 32;  // 2 x 65536 sums: no dearer than sampling
+constexpr std::size_t most_exact_terms = 32;  // 2 x 65536 sums: as fast as sampling
 
 // Sums that are closer than this, relative to the sum of all magnitudes, differ only by the
 // rounding of the sums; that of the differences comes on top.

@@ -233,7 +233,7 @@ class CellTable {
     for (const Contest& contest : contests) {
       const auto first = adjusted.begin() + static_cast<std::ptrdiff_t>(contest.first_test);
       const bool told = std::all_of(first, first + static_cast<std::ptrdiff_t>(contest.tests),
-                                    [](double p) { return p <= 1.0 - confidence; });
+                                    [](double p) { return p <= significance; });
       if (told) best_.insert({contest.best, contest.quantity, contest.step});
     }
   }

@@ -34,7 +34,7 @@ std::string reason(const ClaimResult& result, const Contrast& contrast) {
   if (!contrast.p_holds) return "too few trials, or no scatter, to decide";
   const double least = std::min(*contrast.p_holds, *contrast.p_fails);
   if (contrast.of_each) return "trials without a value may differ";
-  return least < 1.0 - confidence ? "decided only without the correction" : "undecided";
+  return least < significance ? "decided only without the correction" : "undecided";
 }
 
 std::string p_text(double p) {

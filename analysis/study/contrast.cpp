@@ -28,8 +28,7 @@ std::optional<stats::Interval> median_interval(std::span<const double> numbers) 
   std::ranges::sort(sorted);
   const auto n = static_cast<int>(sorted.size());
   int k = 0;
-  while (2 * (k + 1) <= n && 2.0 * stats::chance_of_at_least(n - k, n, 0.5) <= 1.0 - confidence)
-    ++k;
+  while (2 * (k + 1) <= n && 2.0 * stats::chance_of_at_least(n - k, n, 0.5) <= significance) ++k;
   if (k == 0) return std::nullopt;
   return stats::Interval{sorted[static_cast<std::size_t>(k - 1)],
                          sorted[static_cast<std::size_t>(n - k)]};

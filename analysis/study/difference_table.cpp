@@ -23,7 +23,6 @@ namespace shoal::analysis {
 namespace {
 
 constexpr int most_replications = 10000;
-constexpr double alpha = 1.0 - confidence;
 
 Cell number_or_missing(const std::optional<double>& value, Digits digits) {
   if (!value) return Missing{};
@@ -213,8 +212,8 @@ class DifferenceTable {
       const double effect = row.differences.standard_error()
                                 ? wanted / statistics::standard_deviation(row.differences.values())
                                 : std::numeric_limits<double>::infinity();
-      const auto n = statistics::replications_for(test, effect, alpha / tested_, wanted_power,
-                                                  most_replications);
+      const auto n = statistics::replications_for(test, effect, significance / tested_,
+                                                  wanted_power, most_replications);
       if (n) needed[i] = Estimate{.value = static_cast<double>(*n), .digits = Digits::decimals(0)};
     });
     table.columns.push_back(column);

@@ -75,11 +75,11 @@ std::optional<std::string> note_on_floor(const std::vector<statistics::Differenc
       (tests == 1 ? "of 1 comparison, is "
                   : fmt::format("corrected for {} comparisons, is ", tests));
   const std::string text = of + fmt::format("{:.2g}", least(static_cast<int>(most)));
-  const double alpha = 1.0 - confidence;
-  if (least(static_cast<int>(most)) <= alpha) return text + ": differences can be significant.";
+  if (least(static_cast<int>(most)) <= significance)
+    return text + ": differences can be significant.";
   int enough = static_cast<int>(most);
-  while (enough < 100 && least(enough) > alpha) ++enough;
-  const std::string hope = least(enough) <= alpha
+  while (enough < 100 && least(enough) > significance) ++enough;
+  const std::string hope = least(enough) <= significance
                                ? fmt::format("; {} replications are the fewest that could", enough)
                                : "";
   return text + ": no difference could be significant here, however large" + hope + ".";
