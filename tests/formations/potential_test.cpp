@@ -108,9 +108,9 @@ TEST(ThesisPotential, AttractsConstantlyFromFarAway) {
 
 // The laws of the literature, computed by hand ----------------------------------------------------
 
-using Table = std::initializer_list<std::pair<const char*, double>>;
+using Numbers = std::initializer_list<std::pair<const char*, double>>;
 
-std::unique_ptr<Potential> law(const char* kind, Table options = {}) {
+std::unique_ptr<Potential> law(const char* kind, Numbers options = {}) {
   Setting table;
   for (const auto& [name, value] : options) assign(table, name, {value, {}});
   return Registry<Potential>::instance().make(kind, table, "test");
