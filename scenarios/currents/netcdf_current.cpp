@@ -13,7 +13,7 @@ namespace {
 
 using Eigen::Vector2d;
 
-enum class Outside { error, clamp };
+enum class Outside { error, clamp_place, clamp };
 enum class Depth { vehicle, fixed };
 
 struct NetcdfOptions {
@@ -50,8 +50,12 @@ struct NetcdfOptions {
              "levels of the file");
     o.number("strength", &N::strength, "", in(0.0, 100.0),
              "the velocities of the file are multiplied by it: what if the current were stronger");
-    o.word("outside", &N::outside, {{"error", Outside::error}, {"clamp", Outside::clamp}},
-           "outside the data: an error, or the nearest time, level and wet place");
+    o.word("outside", &N::outside,
+           {{"error", Outside::error},
+            {"clamp_place", Outside::clamp_place},
+            {"clamp", Outside::clamp}},
+           "outside the data: an error; the nearest level and wet place, while a time outside is "
+           "an error; or the nearest time, level and wet place");
     o.text("u_variable", &N::u_variable, "name of the eastward component, if it must be chosen");
     o.text("v_variable", &N::v_variable, "name of the northward component, if it must be chosen");
   }
@@ -76,7 +80,7 @@ class NetcdfCurrent final : public Current {
                           .origin = {.x_y = {options.origin_x_m, options.origin_y_m}},
                           .depth_m = options.depth_m,
                           .all_levels = options.depth == Depth::vehicle,
-                          .clamp = options.outside == Outside::clamp,
+                          .clamp = options.outside != Outside::error,
                           .u_variable = options.u_variable,
                           .v_variable = options.v_variable};
     if (!options.origin.empty()) request.origin.longitude_latitude = options.origin.front();
@@ -94,10 +98,10 @@ class NetcdfCurrent final : public Current {
 
   void sample(double time_s, std::span<const double> x_m, std::span<const double> y_m,
               std::span<double> u_m_s, std::span<double> v_m_s) const override {
-    const bool clamp = outside_ == Outside::clamp;
-    if (!clamp) require_time(time_s);
-    const std::size_t reached = waters_->field.sample(
-        time_s + start_s_, waters_->frame.grid_from_mission, clamp, x_m, y_m, u_m_s, v_m_s);
+    if (outside_ != Outside::clamp) require_time(time_s);
+    const std::size_t reached =
+        waters_->field.sample(time_s + start_s_, waters_->frame.grid_from_mission,
+                              outside_ != Outside::error, x_m, y_m, u_m_s, v_m_s);
     if (reached < x_m.size()) refuse_place(time_s, x_m[reached], y_m[reached]);
     for (double& u : u_m_s) u *= strength_;
     for (double& v : v_m_s) v *= strength_;
@@ -107,7 +111,7 @@ class NetcdfCurrent final : public Current {
                  std::span<const double> depth_m, std::span<double> u_m_s,
                  std::span<double> v_m_s) const override {
     if (waters_->levels.empty()) return sample(time_s, x_m, y_m, u_m_s, v_m_s);
-    if (outside_ == Outside::error) require_time(time_s);
+    if (outside_ != Outside::clamp) require_time(time_s);
     for (std::size_t k = 0; k < x_m.size(); ++k) {
       const std::optional<Vector2d> velocity = between_levels(time_s, x_m[k], y_m[k], depth_m[k]);
       if (!velocity) refuse_place(time_s, x_m[k], y_m[k]);
@@ -136,7 +140,7 @@ class NetcdfCurrent final : public Current {
                                          double depth_m) const {
     const std::vector<double>& depths = waters_->depths_m;
     double depth = std::max(0.0, depth_m);  // at most waves are above the surface
-    if (outside_ == Outside::clamp) depth = std::clamp(depth, depths.front(), depths.back());
+    if (outside_ != Outside::error) depth = std::clamp(depth, depths.front(), depths.back());
     if (!(depth >= depths.front() && depth <= depths.back())) refuse_depth(x_m, y_m, depth);
     const auto below = std::ranges::upper_bound(depths, depth) - depths.begin();
     const auto lower = std::min(static_cast<std::size_t>(below), depths.size() - 1);
@@ -151,7 +155,7 @@ class NetcdfCurrent final : public Current {
   std::optional<Vector2d> at_level(std::size_t level, double time_s, double x_m, double y_m) const {
     Vector2d velocity;
     const std::size_t found = waters_->levels[level].sample(
-        time_s + start_s_, waters_->frame.grid_from_mission, outside_ == Outside::clamp, {&x_m, 1},
+        time_s + start_s_, waters_->frame.grid_from_mission, outside_ != Outside::error, {&x_m, 1},
         {&y_m, 1}, {&velocity.x(), 1}, {&velocity.y(), 1});
     return found == 1 ? std::optional(velocity) : std::nullopt;
   }
@@ -162,7 +166,7 @@ class NetcdfCurrent final : public Current {
       if (options.start.empty() && options.time_offset_s == 0.0) return 0.0;
       waters.refuse("has no time axis, so current.netcdf.start and time_offset_s mean nothing");
     }
-    if (waters.times == 1 && options.outside == Outside::error) {
+    if (waters.times == 1 && options.outside != Outside::clamp) {
       waters.refuse("holds a single time, " + iso_text(waters.first_time, waters.calendar) +
                     ", and a mission lasts; to use it throughout, " + or_clamp);
     }
@@ -202,7 +206,7 @@ class NetcdfCurrent final : public Current {
         "{}: no current at a depth of {} m, {}: the levels run from {} to {} m; set "
         "current.netcdf.depth = \"fixed\" with a depth_m in them, or {}",
         name_, shortest(depth_m), waters_->frame.position_text(x_m, y_m),
-        shortest(waters_->depths_m.front()), shortest(waters_->depths_m.back()), or_clamp));
+        shortest(waters_->depths_m.front()), shortest(waters_->depths_m.back()), or_clamp_place));
   }
 
   [[noreturn]] void refuse_place(double time_s, double x_m, double y_m) const {
@@ -220,7 +224,7 @@ class NetcdfCurrent final : public Current {
       throw InputError(
           fmt::format("{}: no current at {}{}: all nodes around are missing, it is on "
                       "land; move the start, or {}",
-                      name_, place, when, or_clamp));
+                      name_, place, when, or_clamp_place));
     }
     const std::string along_axes =
         waters_->frame.grid_from_mission.isIdentity()
@@ -230,7 +234,7 @@ class NetcdfCurrent final : public Current {
     throw InputError(
         fmt::format("{}: no current at {}{}: the file covers {}; shorten "
                     "trial.duration_s, move the start or the origin, or {}",
-                    name_, place, along_axes, waters_->frame.extent_text(), or_clamp));
+                    name_, place, along_axes, waters_->frame.extent_text(), or_clamp_place));
   }
 
   std::string name_;

@@ -31,7 +31,7 @@ Level level_at(const NetcdfFile& file, const CurrentLayout& layout, const Waters
   if (!layout.depth) {
     if (depth == 0.0 || request.clamp) return {};
     file.refuse(fmt::format("no current at a depth of {} m: the file has no depths; {}",
-                            shortest(depth), or_clamp));
+                            shortest(depth), or_clamp_place));
   }
   const std::vector<double>& levels = layout.depth->values;
   Level level;
@@ -54,7 +54,7 @@ Level level_at(const NetcdfFile& file, const CurrentLayout& layout, const Waters
             ? fmt::format("the only level is at {} m", shortest(top))
             : fmt::format("the levels run from {} to {} m", shortest(top), shortest(bottom));
     file.refuse(fmt::format("no current at a depth of {} m: {}; set current.netcdf.depth_m, or {}",
-                            shortest(depth), there, or_clamp));
+                            shortest(depth), there, or_clamp_place));
   }
   if (!std::isfinite(above)) level.upper = level.lower;
   if (!std::isfinite(below)) level.lower = level.upper;

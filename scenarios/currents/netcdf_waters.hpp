@@ -10,8 +10,9 @@
 
 namespace shoal::scenarios {
 
-/// The remedy for currents that are asked for outside the data.
+/// The remedies for currents that are asked for at a time, or at a place, outside the data.
 inline constexpr const char* or_clamp = "set current.netcdf.outside = \"clamp\"";
+inline constexpr const char* or_clamp_place = "set current.netcdf.outside = \"clamp_place\"";
 
 /// What of a file of currents is read, and how it is laid out for a mission.
 struct WatersRequest {

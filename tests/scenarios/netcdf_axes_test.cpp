@@ -83,6 +83,25 @@ TEST(NetcdfCurrent, HoldsTheFirstAndLastTimeWhenClamped) {
   EXPECT_LT((at(*water, 1e6, 50, 50) - file.velocity(1200, 0, 50, 50)).norm(), float_rounding);
 }
 
+TEST(NetcdfCurrent, ClampingThePlaceLeavesATimeOutsideAnError) {
+  File file;
+  file.depth = {5, 20};
+  file.velocity = [](double t, double z, double x, double) {
+    return Vector2d(1e-4 * t + 0.01 * z, 1e-3 * x);
+  };
+  const fs::path path = file.write("place.nc");
+  const auto water = open(path, {{"outside", clamp_place}});
+  const double x = 500, y = 50, deep = 100;
+  Vector2d velocity;
+  water->sample_at(600, {&x, 1}, {&y, 1}, {&deep, 1}, {&velocity.x(), 1}, {&velocity.y(), 1});
+  EXPECT_LT((velocity - file.velocity(600, 20, 200, 50)).norm(), float_rounding);
+  EXPECT_LT((at(*water, 600, x, y) - file.velocity(600, 5, 200, 50)).norm(), float_rounding);
+  EXPECT_SAYS(complaint([&] { water->require_duration(1201); }), "no current at t = 1201 s");
+  EXPECT_SAYS(complaint([&] { at(*water, 1201, 50, 50); }), "outside = \"clamp\"");
+  file.time = {3600};
+  EXPECT_SAYS(refusal(file.write("single.nc"), {{"outside", clamp_place}}), "a single time");
+}
+
 TEST(NetcdfCurrent, LastsFromASingleTimeOnlyWhenClamped) {
   File file;
   file.time = {3600};

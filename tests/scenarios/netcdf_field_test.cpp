@@ -177,13 +177,16 @@ TEST(NetcdfCurrent, NamesThePlaceAndTimeOfAPositionOnLand) {
   EXPECT_SAYS(why,
               "coast.nc: no current at x = 310.0 m, y = 50.0 m, t = 60 s (2014-12-01T00:01:00Z)");
   EXPECT_SAYS(why, "on land");
-  EXPECT_SAYS(why, "current.netcdf.outside = \"clamp\"");
+  EXPECT_SAYS(why, "current.netcdf.outside = \"clamp_place\"");
 }
 
 TEST(NetcdfCurrent, ClampsLandToTheNearestWetNode) {
-  const auto water = open(with_coast().write("coast.nc"), {{"outside", clamp}});
-  EXPECT_LT((at(*water, 60, 310, 50) - Vector2d(0.1, 0.5)).norm(), float_rounding);
-  EXPECT_LT((at(*water, 60, 5000, 50) - Vector2d(0.1, 0.5)).norm(), float_rounding);
+  const fs::path path = with_coast().write("coast.nc");
+  for (const auto& held : {clamp, clamp_place}) {
+    const auto water = open(path, {{"outside", held}});
+    EXPECT_LT((at(*water, 60, 310, 50) - Vector2d(0.1, 0.5)).norm(), float_rounding);
+    EXPECT_LT((at(*water, 60, 5000, 50) - Vector2d(0.1, 0.5)).norm(), float_rounding);
+  }
 }
 
 TEST(NetcdfCurrent, RefusesAFileThatIsAllLand) {

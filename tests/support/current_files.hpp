@@ -167,6 +167,7 @@ inline std::string refusal(const fs::path& path, const Changes& options = {}) {
   EXPECT_NE(std::string(message).find(part), std::string::npos) << (message)
 
 inline const Setting clamp = plain(std::string("clamp"));
+inline const Setting clamp_place = plain(std::string("clamp_place"));
 
 /// 1 m/s everywhere but for the node (100, 100), which is missing.
 inline File with_hole(double stored_hole) {
