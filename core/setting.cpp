@@ -4,6 +4,7 @@
 #include <array>
 #include <utility>
 
+#include "shoal/core/nesting.hpp"
 #include "shoal/core/text.hpp"
 
 namespace shoal {
@@ -141,9 +142,15 @@ std::string_view Setting::type_name() const {
 }
 
 void assign(Setting& root, std::string_view dotted_path, Setting value) {
+  const std::vector<std::string_view> parts = split(dotted_path, '.');
+  if (parts.size() > deepest_nesting) {
+    throw InputError(value.origin, "a key has " + std::to_string(parts.size()) +
+                                       " parts, but no option is nested deeper than " +
+                                       std::to_string(deepest_nesting));
+  }
   Setting* place = &root;
   std::string walked;
-  for (const std::string_view part : split(dotted_path, '.')) {
+  for (const std::string_view part : parts) {
     if (part.empty()) {
       throw InputError(value.origin, "\"" + std::string(dotted_path) +
                                          "\" is not a dotted key; write e.g. trial.seed");

@@ -24,6 +24,9 @@ std::string listed(std::span<const std::string> words);
 /// The finite number that the whole text spells (`-2.5`, `+1e3`), or nothing.
 std::optional<double> parsed_number(std::string_view text);
 
+/// Where the text stops being UTF-8 (RFC 3629), in bytes; nothing if it is all of it.
+std::optional<std::size_t> first_not_utf8(std::string_view text);
+
 std::string_view trimmed(std::string_view text);
 
 std::vector<std::string_view> split(std::string_view text, char separator);

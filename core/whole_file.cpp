@@ -9,22 +9,44 @@
 #include "shoal/core/error.hpp"
 
 namespace shoal {
+namespace {
 
-void write_whole_file(const std::filesystem::path& file, std::span<const char> content) {
-  const auto partial = file.parent_path() / ("." + file.filename().string() + ".partial");
+namespace fs = std::filesystem;
+
+std::error_code write_bytes(const fs::path& file, std::span<const char> content) {
   errno = 0;
-  std::FILE* out = std::fopen(partial.c_str(), "wb");
+  std::FILE* out = std::fopen(file.c_str(), "wb");
   bool written = out && std::fwrite(content.data(), 1, content.size(), out) == content.size();
   if (out) written = std::fclose(out) == 0 && written;
+  if (written) return {};
+  return {errno != 0 ? errno : EIO, std::generic_category()};
+}
 
-  std::error_code failed;
-  if (!written) failed.assign(errno != 0 ? errno : EIO, std::generic_category());
-  if (!failed) std::filesystem::rename(partial, file, failed);
-  if (!failed) return;
+std::error_code replace_file(const fs::path& file, std::span<const char> content) {
+  const fs::path partial = file.parent_path() / ("." + file.filename().string() + ".partial");
+  std::error_code failed = write_bytes(partial, content);
+  if (!failed) fs::rename(partial, file, failed);
   std::error_code ignored;
-  std::filesystem::remove(partial, ignored);
-  throw SystemError("cannot write " + file.string() + ": " + failed.message() +
-                    "; check free space and permissions");
+  if (failed) fs::remove(partial, ignored);
+  return failed;
+}
+
+}  // namespace
+
+void write_whole_file(const fs::path& file, std::span<const char> content) {
+  std::error_code unknown;
+  // Behind a link the file that it leads to is replaced, and the link stays.
+  const fs::path resolved = fs::is_symlink(file, unknown) ? fs::canonical(file, unknown) : file;
+  const fs::file_status status = fs::status(file, unknown);
+  const bool replaceable = !resolved.empty() &&
+                           (fs::is_regular_file(status) || !fs::is_symlink(file, unknown)) &&
+                           !fs::is_other(status);
+  const std::error_code failed =
+      replaceable ? replace_file(resolved, content) : write_bytes(file, content);
+  if (failed) {
+    throw SystemError("cannot write " + file.string() + ": " + failed.message() +
+                      "; check free space and permissions");
+  }
 }
 
 std::optional<std::string> read_whole_file(const std::filesystem::path& file) {

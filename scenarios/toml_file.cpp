@@ -7,8 +7,10 @@
 #include <functional>
 #include <iterator>
 #include <optional>
+#include <string_view>
 #include <utility>
 
+#include "shoal/core/nesting.hpp"
 #include "shoal/core/text.hpp"
 
 namespace shoal::scenarios {
@@ -58,9 +60,47 @@ Setting setting_of(const toml::node& node, const Origin& origin, const OriginOf&
   return setting;
 }
 
+/// Where the text goes on behind the string or comment that begins at `i`.
+std::size_t end_of_text(std::string_view content, std::size_t i) {
+  const auto behind = [&](std::string_view end, std::size_t from) {
+    const std::size_t found = content.find(end, from);
+    return found == std::string_view::npos ? content.size() : found + end.size();
+  };
+  if (content[i] == '#') return std::min(content.find('\n', i), content.size());
+  const std::string_view three = content.substr(i, 3);
+  if (three == "\"\"\"" || three == "'''") return behind(three, i + 3);
+  for (std::size_t k = i + 1; k < content.size() && content[k] != '\n'; ++k) {
+    if (content[k] == '\\' && content[i] == '"') {
+      ++k;
+    } else if (content[k] == content[i]) {
+      return k + 1;
+    }
+  }
+  return content.size();  // not closed: the parser says so
+}
+
+/// toml++ limits how deep values are nested, but not the parts of a key (`a.a.a = 1`), whose tables
+/// it destroys by recursion. Throws InputError.
+void require_shallow_keys(std::string_view content, const std::string& name) {
+  std::size_t dots = 0;
+  for (std::size_t i = 0; i < content.size();) {
+    const char c = content[i];
+    const bool is_text = c == '"' || c == '\'' || c == '#';
+    if (c == '\n' || c == '=' || c == ',' || c == '[' || c == '{') dots = 0;
+    if (c == '.' && ++dots >= deepest_nesting) {
+      const auto line = std::ranges::count(content.substr(0, i), '\n') + 1;
+      throw InputError({name, static_cast<int>(line)}, "a key has more than " +
+                                                           std::to_string(deepest_nesting) +
+                                                           " parts; no option is nested that deep");
+    }
+    i = is_text ? end_of_text(content, i) : i + 1;
+  }
+}
+
 /// What stands right of the `=`, or nothing if that is not one TOML value.
 std::optional<Setting> toml_value(const std::string& text, const Origin& origin) {
   const bool meant_as_toml = text.find_first_of("[{\"'") == 0;
+  if (meant_as_toml) require_shallow_keys(text, origin.file);
   try {
     const toml::table parsed = toml::parse("value = " + text);
     const toml::node* node = parsed.get("value");
@@ -90,6 +130,7 @@ Setting parse_toml(const std::string& content, const std::string& name) {
   const auto origin_of = [&](const toml::source_region& region) {
     return Origin{name, static_cast<int>(region.begin.line)};
   };
+  require_shallow_keys(content, name);
   try {
     Setting root;
     root.origin = {name, 0};
@@ -102,7 +143,9 @@ Setting parse_toml(const std::string& content, const std::string& name) {
 }
 
 void apply_set(Setting& root, const std::string& assignment) {
-  const Origin origin{"--set " + assignment, 0};
+  constexpr std::size_t shown = 200;
+  const bool whole = assignment.size() <= shown;
+  const Origin origin{"--set " + (whole ? assignment : assignment.substr(0, shown) + "..."), 0};
   const auto equals = assignment.find('=');
   if (equals == std::string::npos) {
     throw InputError(origin, "there is no value; write --set KEY=VALUE");

@@ -52,6 +52,25 @@ TEST(Text, ParsesOnlyWholeFiniteNumbers) {
   }
 }
 
+TEST(Text, OfUtf8IsThatOfRfc3629) {
+  for (const char* right : {"", "plain", "M\xc3\xa4rz", "\xe2\x89\xa4", "\xf0\x9f\x90\x9f", "\x7f",
+                            "\xed\x9f\xbf", "\xf4\x8f\xbf\xbf"}) {
+    EXPECT_EQ(first_not_utf8(right), std::nullopt) << right;
+  }
+  const std::pair<const char*, std::size_t> wrong[]{
+      {"M\xd6\x31", 1},         // Latin-1
+      {"abc\x80", 3},           // a continuation that continues nothing
+      {"\xc3", 0},              // cut off
+      {"ab\xe2\x89", 2},        // cut off
+      {"\xc0\xaf", 0},          // overlong
+      {"\xe0\x9f\xbf", 0},      // overlong
+      {"\xf0\x8f\xbf\xbf", 0},  // overlong
+      {"\xed\xa0\x80", 0},      // a surrogate
+      {"\xf4\x90\x80\x80", 0},  // beyond U+10FFFF
+      {"\xc3\xa4\xff", 2}};
+  for (const auto& [text, at] : wrong) EXPECT_EQ(first_not_utf8(text), at) << text;
+}
+
 TEST(Text, SplitsIntoOnePartMoreThanThereAreSeparators) {
   EXPECT_EQ(split("a,b", ','), (std::vector<std::string_view>{"a", "b"}));
   EXPECT_EQ(split(",a,", ','), (std::vector<std::string_view>{"", "a", ""}));

@@ -7,6 +7,7 @@
 #include <fstream>
 
 #include "shoal/core/options.hpp"
+#include "tests/core/settings.hpp"
 
 namespace shoal::scenarios {
 namespace {
@@ -120,6 +121,35 @@ TEST_F(TomlFile, ComplainsOfMalformedTomlWithFileAndLine) {
   EXPECT_NE(complaint("a = 1\na = 2\n").find("scenario.toml:2: "), std::string::npos);
   EXPECT_NE(complaint("a = \"open\n").find("scenario.toml:1: "), std::string::npos);
   EXPECT_NE(complaint("a = \"\xff\"\n"), "");
+}
+
+TEST_F(TomlFile, RefusesKeysOfTooManyParts) {
+  std::string deep;
+  for (int i = 0; i < 100'000; ++i) deep += "a.";
+  const std::string why =
+      "too.toml:2: a key has more than 100 parts; no option is nested that deep";
+  for (const std::string& text : {deep + "b = 1", "[" + deep + "b]", "x = { " + deep + "b = 1 }"}) {
+    EXPECT_EQ(tests::complaint_of([&] { parse_toml("y = 1\n" + text, "too.toml"); }), why);
+  }
+  const std::string dots(300, '.');
+  EXPECT_NO_THROW(parse_toml("# " + dots + "\na = \"" + dots + "\" # " + dots + "\nb = \"\"\"x\n" +
+                                 dots + "\"\"\"\nc = '" + dots + "'\nd = [1.5, 2.5]",
+                             "fine.toml"));
+  std::string decimals = "a = [";
+  for (int i = 0; i < 300; ++i) decimals += "1.5\n,";
+  EXPECT_NO_THROW(parse_toml(decimals + "]", "fine.toml"));
+}
+
+TEST_F(TomlFile, RefusesAssignmentsToKeysOfTooManyParts) {
+  std::string deep = "a";
+  for (int i = 1; i < 60'000; ++i) deep += ".a";
+  Setting root;
+  const std::string why = tests::complaint_of([&] { apply_set(root, deep + "=1"); });
+  EXPECT_NE(why.find("a key has 60000 parts, but no option is nested deeper than 100"),
+            std::string::npos)
+      << why;
+  EXPECT_LT(why.size(), 400u);
+  EXPECT_TRUE(root.table().empty());
 }
 
 TEST_F(TomlFile, RefusesDatesAndTimesWithTheirLine) {
