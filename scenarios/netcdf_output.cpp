@@ -32,9 +32,10 @@ nc_type netcdf_type(NetcdfOutput::Type type) {
 
 }  // namespace
 
-NetcdfOutput::NetcdfOutput(const std::filesystem::path& path) : lock_(netcdf_mutex()), path_(path) {
+NetcdfOutput::NetcdfOutput(const std::filesystem::path& path) : path_(path) {
   constexpr std::size_t initial_bytes = 1 << 20;
-  check(nc_create_mem(path_.c_str(), NC_NETCDF4, initial_bytes, &id_));
+  // The library would change a name with blanks or backslashes; in memory it needs none.
+  check(nc_create_mem("shoal", NC_NETCDF4, initial_bytes, &id_));
   open_ = true;
 }
 

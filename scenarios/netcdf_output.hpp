@@ -3,16 +3,17 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
-#include <mutex>
 #include <span>
 #include <string>
 #include <vector>
+
+#include "shoal/scenarios/netcdf_guard.hpp"
 
 namespace shoal::scenarios {
 
 /// A netCDF-4 file made in memory and written as a whole: HDF5 does not survive a full disk.
 ///
-/// Holds netcdf_mutex() as long as it lives. Groups, dimensions and variables are handles of this
+/// Holds a NetcdfGuard as long as it lives. Groups, dimensions and variables are handles of this
 /// file. Every error is a SystemError that begins with `cannot make FILE`.
 class NetcdfOutput {
  public:
@@ -68,7 +69,7 @@ class NetcdfOutput {
  private:
   void check(int code) const;
 
-  std::unique_lock<std::mutex> lock_;
+  NetcdfGuard guard_;
   std::filesystem::path path_;
   int id_ = 0;
   bool open_ = false;

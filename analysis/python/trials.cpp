@@ -5,6 +5,7 @@
 #include "shoal/analysis/report/known_current.hpp"
 #include "shoal/analysis/report/run_report.hpp"
 #include "shoal/analysis/trial.hpp"
+#include "shoal/scenarios/netcdf_guard.hpp"
 #include "shoal/scenarios/toml_file.hpp"
 
 namespace shoal::python {
@@ -59,9 +60,26 @@ py::tuple current(const py::object& scenario, double time_s, const Array& x, con
   return py::make_tuple(u, v);
 }
 
+/// A context: other packages of the same process use netCDF, too.
+class NetcdfLock {
+ public:
+  void enter() {
+    const py::gil_scoped_release free;
+    guard_.emplace();
+  }
+  void exit(const py::args&) { guard_.reset(); }
+
+ private:
+  std::optional<scenarios::NetcdfGuard> guard_;
+};
+
 }  // namespace
 
 void add_trials(py::module_& module) {
+  py::class_<NetcdfLock>(module, "NetcdfLock")
+      .def(py::init<>())
+      .def("__enter__", &NetcdfLock::enter)
+      .def("__exit__", &NetcdfLock::exit);
   module.def("run", &run, py::arg("scenario"), py::arg("set"), py::arg("name"), py::arg("folder"),
              py::arg("threads"), py::arg("record"), py::arg("report"));
   module.def(

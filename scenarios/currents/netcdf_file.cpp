@@ -1,7 +1,9 @@
 #include "shoal/scenarios/currents/netcdf_file.hpp"
 
+#include <fcntl.h>
 #include <netcdf.h>
 #include <netcdf_mem.h>
+#include <unistd.h>
 
 #include <fstream>
 
@@ -23,6 +25,9 @@ constexpr TypeName numeric_types[] = {{NC_BYTE, "int8", true},      {NC_UBYTE, "
                                       {NC_INT64, "int64", true},    {NC_UINT64, "uint64", true},
                                       {NC_FLOAT, "float32", false}, {NC_DOUBLE, "float64", false}};
 
+// 2 GB of doubles. What a file claims to hold may be more than what stands in it.
+constexpr std::size_t most_values = std::size_t{1} << 28;
+
 bool is_classic(const std::filesystem::path& path) {
   std::ifstream file(path, std::ios::binary);
   char magic[3] = {};
@@ -31,11 +36,6 @@ bool is_classic(const std::filesystem::path& path) {
 }
 
 }  // namespace
-
-std::mutex& netcdf_mutex() {
-  static std::mutex mutex;
-  return mutex;
-}
 
 std::string shown(const std::filesystem::path& path) {
   std::error_code ignored;
@@ -49,8 +49,7 @@ std::size_t NetcdfVariable::size() const {
   return product;
 }
 
-NetcdfFile::NetcdfFile(const std::filesystem::path& path)
-    : lock_(netcdf_mutex()), name_(shown(path)) {
+NetcdfFile::NetcdfFile(const std::filesystem::path& path) : name_(shown(path)) {
   open(path);
   try {
     list_variables();
@@ -77,7 +76,12 @@ void NetcdfFile::open(const std::filesystem::path& path) {
     if (!file) refuse("cannot be read");
     status = nc_open_mem(name_.c_str(), NC_NOWRITE, content_.size(), content_.data(), &id_);
   } else {
-    status = nc_open(path.c_str(), NC_NOWRITE, &id_);
+    // By a name of the system: the library would change one with blanks or backslashes.
+    const int descriptor = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
+    if (descriptor < 0) refuse("cannot be read");
+    const std::string name = "/proc/self/fd/" + std::to_string(descriptor);
+    status = nc_open(name.c_str(), NC_NOWRITE, &id_);
+    ::close(descriptor);
   }
   if (status == NC_ENOTNC) refuse("is not a netCDF file");
   require(status, "open the file; it is damaged or incomplete");
@@ -186,7 +190,13 @@ std::optional<double> NetcdfFile::default_fill(const NetcdfVariable& variable) c
 void NetcdfFile::read(const NetcdfVariable& variable, const std::vector<std::size_t>& start,
                       const std::vector<std::size_t>& count, std::vector<double>& values) const {
   std::size_t size = 1;
-  for (const std::size_t n : count) size *= n;
+  for (const std::size_t n : count) {
+    if (n > 0 && size > most_values / n) {
+      refuse(variable.name + " has more than " + std::to_string(most_values) +
+             " numbers; that is more than shoal reads at once");
+    }
+    size *= n;
+  }
   values.resize(size);
   require(nc_get_vara_double(id_, variable.id, start.data(), count.data(), values.data()),
           "read " + variable.name + "; the file is damaged or incomplete");

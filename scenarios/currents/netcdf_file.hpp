@@ -2,17 +2,14 @@
 
 #include <cstddef>
 #include <filesystem>
-#include <mutex>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
-namespace shoal::scenarios {
+#include "shoal/scenarios/netcdf_guard.hpp"
 
-/// The lock under which all netCDF calls of the process run: neither netCDF nor HDF5 is
-/// thread-safe.
-std::mutex& netcdf_mutex();
+namespace shoal::scenarios {
 
 struct NetcdfDimension {
   std::string name;
@@ -34,7 +31,7 @@ struct NetcdfVariable {
 
 /// One netCDF file, read only.
 ///
-/// Holds netcdf_mutex() as long as it lives: read, close, and work on what was read.
+/// Holds a NetcdfGuard as long as it lives: read, close, and work on what was read.
 /// Every error is an InputError that begins with the name of the file.
 class NetcdfFile {
  public:
@@ -72,7 +69,7 @@ class NetcdfFile {
   /// Throws if the status of a netCDF call is an error; `doing` completes "cannot ...".
   void require(int status, const std::string& doing) const;
 
-  std::unique_lock<std::mutex> lock_;
+  NetcdfGuard guard_;
   std::string name_;
   std::vector<char> content_;  ///< of a classic file
   int id_ = -1;
