@@ -71,11 +71,14 @@ std::string dimensions_text(const NetcdfVariable& variable) {
 /// The 1-D variable that gives a dimension its coordinates: the one of the same name, else the
 /// only one whose attributes say what it measures. nullptr if there is none.
 const NetcdfVariable* coordinate_of(const NetcdfFile& file, const NetcdfDimension& dimension) {
-  const NetcdfVariable* found = nullptr;
+  const auto along_it = [&](const NetcdfVariable& variable) {
+    return variable.dimensions.size() == 1 && variable.dimensions[0] == dimension;
+  };
+  const NetcdfVariable* found = file.find(dimension.name);
+  if (found && along_it(*found)) return found;
+  found = nullptr;
   for (const NetcdfVariable& variable : file.variables()) {
-    if (variable.dimensions.size() != 1 || variable.dimensions[0] != dimension) continue;
-    if (variable.name == dimension.name) return &variable;
-    if (role_of(file, variable) == AxisRole::none) continue;
+    if (!along_it(variable) || role_of(file, variable) == AxisRole::none) continue;
     if (found) {
       file.refuse("the dimension " + dimension.name + " could be measured by " + found->name +
                   " or " + variable.name + "; give it a coordinate variable of its own name");
@@ -151,7 +154,10 @@ void read_time(const NetcdfFile& file, const NetcdfVariable& variable, Coordinat
     if (axis.values.empty()) file.refuse(variable.name + " holds no time step");
     const double first = axis.values.front();
     layout.first_time = parsed.reference.plus(first * parsed.seconds);
-    for (double& value : axis.values) value = (value - first) * parsed.seconds;
+    for (double& value : axis.values) {
+      require_date(parsed.reference.plus(value * parsed.seconds), layout.calendar);
+      value = (value - first) * parsed.seconds;
+    }
   } catch (const InputError& error) {
     const std::string why = error.what();
     if (why.starts_with(file.name() + ": ")) throw;

@@ -15,6 +15,8 @@ namespace shoal::scenarios {
 namespace {
 
 constexpr double seconds_per_day = 86400.0;
+constexpr std::int64_t last_year = 9999;               // ISO 8601 writes years with four digits
+constexpr double most_days = 366.0 * (last_year + 1);  // of the calendar with the longest years
 
 struct Date {
   std::int64_t year = 1;
@@ -208,7 +210,7 @@ std::optional<double> read_zone(Reader& reader) {
 
 void require_real(const Date& date, Calendar calendar, std::string_view text) {
   const std::string in_calendar = " of the " + name_of(calendar) + " calendar";
-  if (date.year > 1'000'000) refuse_date(text, in_calendar);
+  if (date.year > last_year) refuse_date(text, "; years end with " + std::to_string(last_year));
   if (date.month < 1 || date.month > 12 || date.day < 1 ||
       date.day > days_in_month(date, calendar)) {
     refuse_date(text, in_calendar);
@@ -248,7 +250,19 @@ std::string lower(std::string_view text) {
 Instant Instant::plus(double seconds) const {
   const double total = second + seconds;
   const double days = std::floor(total / seconds_per_day);
+  if (!(std::abs(static_cast<double>(day) + days) <= most_days)) {
+    throw InputError("a time of " + shortest(seconds) + " s is no date; years end with " +
+                     std::to_string(last_year));
+  }
   return {day + static_cast<std::int64_t>(days), total - days * seconds_per_day};
+}
+
+void require_date(const Instant& instant, Calendar calendar) {
+  const Date date = date_of(instant.day, calendar);
+  if (date.year >= 0 && date.year <= last_year) return;
+  throw InputError("a time in the year " + std::to_string(date.year) + " is no date of the " +
+                   name_of(calendar) + " calendar; years run from 0 to " +
+                   std::to_string(last_year));
 }
 
 double Instant::since(const Instant& other) const {

@@ -22,10 +22,14 @@ struct Instant {
   std::int64_t day = 0;
   double second = 0.0;
 
+  /// Throws InputError for what is in no year of four digits of any calendar.
   Instant plus(double seconds) const;
   /// Seconds from `other` to here.
   double since(const Instant& other) const;
 };
+
+/// Throws InputError for what is in no year of four digits of this calendar.
+void require_date(const Instant& instant, Calendar calendar);
 
 /// The calendar of that CF name ("" means standard). Throws InputError for any other.
 Calendar calendar_named(std::string_view name);

@@ -43,6 +43,11 @@ Meaning meaning_of(std::string_view standard_name) {
   return {};
 }
 
+bool measures_another_thing(const NetcdfFile& file, const NetcdfVariable& variable) {
+  const std::string name = file.text(variable, "standard_name");
+  return !name.empty() && meaning_of(name).role == VelocityRole::none;
+}
+
 std::string named(const std::vector<const NetcdfVariable*>& variables) {
   std::vector<std::string> names;
   for (const NetcdfVariable* variable : variables) names.push_back(variable->name);
@@ -97,6 +102,7 @@ VelocityPair find_velocities(const NetcdfFile& file, const std::string& u_name,
                 " is there" + choose);
   }
 
+  std::vector<const NetcdfVariable*> foreign;
   static constexpr std::array<std::array<const char*, 2>, 6> common{{{"u", "v"},
                                                                      {"U", "V"},
                                                                      {"uo", "vo"},
@@ -107,8 +113,20 @@ VelocityPair find_velocities(const NetcdfFile& file, const std::string& u_name,
     const NetcdfVariable* first = file.find(u_common);
     const NetcdfVariable* second = file.find(v_common);
     if (!first || !second || first->dimensions.size() < 2) continue;
+    // A name like u may be that of a wind, of ice, of a part of the current.
+    const bool is_foreign =
+        measures_another_thing(file, *first) || measures_another_thing(file, *second);
+    if (is_foreign) foreign.insert(foreign.end(), {first, second});
+    if (is_foreign) continue;
     u.push_back(first);
     v.push_back(second);
+  }
+  if (u.empty() && !foreign.empty()) {
+    const NetcdfVariable* one = measures_another_thing(file, *foreign[0]) ? foreign[0] : foreign[1];
+    file.refuse("holds no current: " + one->name + " is, by its standard name, " +
+                file.text(*one, "standard_name") +
+                "; if it is meant all the same, name both components in "
+                "current.netcdf.u_variable and v_variable");
   }
   if (u.empty()) {
     file.refuse(

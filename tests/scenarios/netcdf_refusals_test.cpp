@@ -37,6 +37,44 @@ TEST(NetcdfCurrent, FindsVelocitiesByCommonNames) {
   EXPECT_NO_THROW(open(file.write("common.nc")));
 }
 
+TEST(NetcdfCurrent, RefusesCommonNamesWithTheStandardNameOfAnotherThing) {
+  for (const char* name : {"eastward_wind", "sea_ice_x_velocity", "eastward_sea_ice_velocity",
+                           "sea_surface_wave_stokes_drift_eastward_velocity",
+                           "eastward_sea_water_velocity_due_to_tides", "ocean_mass_x_transport",
+                           "barotropic_eastward_sea_water_velocity_anomaly"}) {
+    File file;
+    file.u_name = file.v_name = name;
+    const std::string why = refusal(file.write("foreign.nc"));
+    EXPECT_SAYS(why, "holds no current: u is, by its standard name, " + std::string(name) + ";");
+    EXPECT_SAYS(why, "u_variable and v_variable");
+    EXPECT_NO_THROW(open(scratch("foreign.nc"), {{"u_variable", plain(std::string("u"))},
+                                                 {"v_variable", plain(std::string("v"))}}));
+    file.u_name = "";
+    EXPECT_SAYS(refusal(file.write("half.nc")), "v is, by its standard name");
+  }
+}
+
+TEST(NetcdfCurrent, RefusesTimesThatAreNoDates) {
+  for (const Values& times : {Values{0, 1, 1e15}, Values{-1e15, 0, 1}, Values{0, 1, 1e300}}) {
+    File file;
+    file.time = times;
+    EXPECT_SAYS(refusal(file.write("absurd.nc")), "is no date");
+  }
+}
+
+TEST(NetcdfCurrent, PrefersTheVariableOfTheDimensionsOwnNameWhereverItStands) {
+  File file;
+  const auto more_times = [](NetcdfWriter& w) {
+    for (const char* name : {"forecast_run", "forecast_offset"}) {
+      w.variable(name, NC_DOUBLE, {"time"}, {0, 0, 0}).text("units", "hours since 2014-11-30");
+    }
+  };
+  file.variables = more_times;
+  EXPECT_NO_THROW(open(file.write("after.nc")));
+  std::swap(file.variables, file.before_time);
+  EXPECT_NO_THROW(open(file.write("before.nc")));
+}
+
 TEST(NetcdfCurrent, NamesTheCandidatesWhenThereAreTwo) {
   File file;
   file.variables = [](NetcdfWriter& w) {

@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 #include <rapidcheck.h>
 
+#include <cmath>
+
 #include "shoal/core/error.hpp"
 
 namespace shoal::scenarios {
@@ -87,6 +89,19 @@ TEST(Dates, ThatDoNotExistAreRefused) {
   }
   EXPECT_THROW(parse_instant("2012-02-29", Calendar::noleap), InputError);
   EXPECT_THROW(parse_instant("2012-01-31", Calendar::days_360), InputError);
+}
+
+TEST(Dates, AreThoseOfYearsWithFourDigits) {
+  for (const Calendar calendar : all_calendars) {
+    EXPECT_EQ(later("9999-12-29", 1, calendar), "9999-12-30T00:00:00Z");
+    EXPECT_THROW(parse_instant("10000-01-01", calendar), InputError);
+    const Instant last = parse_instant("9999-12-29", calendar);
+    EXPECT_NO_THROW(require_date(last, calendar));
+    EXPECT_THROW(require_date(last.plus(10 * 86400.0), calendar), InputError);
+    for (const double seconds : {1e15, -1e15, 1e300, std::nan(""), HUGE_VAL}) {
+      EXPECT_THROW(parse_instant("2014-12-01", calendar).plus(seconds), InputError) << seconds;
+    }
+  }
 }
 
 TEST(TimeUnits, AreThoseOfFixedLength) {

@@ -49,9 +49,10 @@ struct File {
   double scale = 1.0, offset = 0.0;
   /// Velocities in the file's units, at time, depth, x and y of the axes.
   std::function<Vector2d(double, double, double, double)> velocity = linear;
-  /// More attributes of both velocities, and more variables.
+  /// More attributes of both velocities, and more variables, behind all others or before the time.
   std::function<void(NetcdfWriter&)> attributes = [](NetcdfWriter&) {};
   std::function<void(NetcdfWriter&)> variables = [](NetcdfWriter&) {};
+  std::function<void(NetcdfWriter&)> before_time = [](NetcdfWriter&) {};
 
   static File lon_lat(Values longitude, Values latitude) {
     File file;
@@ -91,8 +92,9 @@ inline fs::path File::write(const std::string& name, int format) const {
   std::vector<std::string> dimensions;
   const auto axis = [&](const std::string& dimension, const Values& values) -> NetcdfWriter& {
     dimensions.push_back(dimension);
-    return w.dimension(dimension, values.size())
-        .variable(dimension, NC_DOUBLE, {dimension}, values);
+    w.dimension(dimension, values.size());
+    if (dimension == "time") before_time(w);
+    return w.variable(dimension, NC_DOUBLE, {dimension}, values);
   };
   if (!time.empty()) {
     axis("time", time).text("units", time_units);
@@ -125,7 +127,8 @@ inline fs::path File::write(const std::string& name, int format) const {
   }
   for (const bool first : {true, false}) {
     w.variable(first ? "u" : "v", type, dimensions, first ? u : v);
-    if (!u_name.empty()) w.text("standard_name", first ? u_name : v_name);
+    const std::string& meaning = first ? u_name : v_name;
+    if (!meaning.empty()) w.text("standard_name", meaning);
     if (!units.empty()) w.text("units", units);
     if (scale != 1.0) w.number("scale_factor", NC_DOUBLE, {scale});
     if (offset != 0.0) w.number("add_offset", NC_DOUBLE, {offset});
