@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <fstream>
 #include <iterator>
+#include <optional>
 
 #include "shoal/core/text.hpp"
 
@@ -19,6 +20,14 @@ std::string content_of(const FilePath& file) {
   std::string content{std::istreambuf_iterator<char>(in), {}};
   if (content.starts_with("\xEF\xBB\xBF")) content.erase(0, 3);
   return content;
+}
+
+void require_utf8(std::string_view line, const Origin& origin) {
+  const std::optional<std::size_t> at = first_not_utf8(line);
+  if (!at) return;
+  throw InputError(origin, "byte " + std::to_string(*at + 1) +
+                               " of this line is not UTF-8; save the file as UTF-8 (from Latin-1: "
+                               "iconv -f latin1 -t utf8)");
 }
 
 /// The fields of one line, without surrounding blanks; quotes as in RFC 4180.
@@ -53,14 +62,27 @@ std::vector<std::string> fields_of(std::string_view line, const Origin& origin) 
 
 }  // namespace
 
+bool CsvTable::is_comment(std::string_view line, const Origin& here) const {
+  if (!line.starts_with('#')) return false;
+  const bool like_a_row = !header_.empty() && line.size() > 1 && line[1] != ' ' && line[1] != '#' &&
+                          split(line, ',').size() == header_.size();
+  if (like_a_row) {
+    throw InputError(here, "this may be a row with the name " +
+                               std::string(line.substr(0, line.find(','))) +
+                               ", or a comment; quote the name, or put a blank after #");
+  }
+  return true;
+}
+
 CsvTable::CsvTable(const FilePath& file, const CsvColumns& columns) : file_(file.path.string()) {
   const std::string content = content_of(file);
   int line_number = 0;
   for (const std::string_view raw : split(content, '\n')) {
     ++line_number;
     const std::string_view line = trimmed(raw);
-    if (line.empty() || line.starts_with('#')) continue;
     const Origin here{file_, line_number};
+    require_utf8(line, here);
+    if (line.empty() || is_comment(line, here)) continue;
     std::vector<std::string> fields = fields_of(line, here);
     if (header_.empty()) {
       take_header(fields, line_number, columns);

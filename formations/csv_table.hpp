@@ -18,8 +18,9 @@ struct CsvColumns {
 /// A small CSV file, its columns known by name and its rows by their line.
 ///
 /// The first line names the columns, in any order. Blank lines and lines that start with # are
-/// passed over; CRLF, a UTF-8 byte order mark and "quoted" fields are understood. Every complaint
-/// is an InputError that begins with `file:line: `.
+/// passed over, except for what may be a row whose first field starts with it (`#1,0,0`): that is
+/// refused. CRLF, a UTF-8 byte order mark and "quoted" fields are understood; text is UTF-8. Every
+/// complaint is an InputError that begins with `file:line: `.
 class CsvTable {
  public:
   /// Throws InputError if the file cannot be opened (pointing at where it was named), has no
@@ -43,6 +44,7 @@ class CsvTable {
   Origin origin(std::size_t row) const { return {file_, lines_[row]}; }
 
  private:
+  bool is_comment(std::string_view line, const Origin& here) const;
   void take_header(const std::vector<std::string>& fields, int line, const CsvColumns& columns);
   std::size_t column_index(const std::string& column) const;
 

@@ -1,5 +1,6 @@
 #include "shoal/formations/planner.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "shoal/core/text.hpp"
@@ -47,6 +48,15 @@ void Planner::receive(const Ping& ping, const Eigen::Vector2d& own_position) {
 }
 
 const Target& Planner::plan(double time_s, const OwnState& own) {
+  if (!std::isfinite(time_s) || !finite(own)) {
+    throw InputError("planning needs a finite time and a finite own state; the last target holds");
+  }
+  const double latest_s = std::max(last_ping_s_, last_plan_s_);
+  if (time_s < latest_s) {
+    throw InputError("a plan at t = " + shortest(time_s) +
+                     " s comes after a ping or a plan of t = " + shortest(latest_s) +
+                     " s; time must not go back");
+  }
   target_ = behaviour_->step({filter_.neighbours(time_s, own.position), own_slot_, own, obstacles_},
                              *plan_);
   last_plan_s_ = time_s;

@@ -35,7 +35,9 @@ class Planner {
   void receive(const Ping& ping, const Eigen::Vector2d& own_position);
 
   /// Plans anew from what was heard so far and returns the target relative to the vehicle. Only
-  /// behaviours that give forces use more of the own state than the position.
+  /// behaviours that give forces use more of the own state than the position. Throws InputError,
+  /// and changes nothing, if time or state is not finite or the time is before the last ping or
+  /// plan.
   const Target& plan(double time_s, const OwnState& own);
 
   /// The last target, relative to where the vehicle is now. Before the first plan(): zero.

@@ -7,6 +7,7 @@
 #include "shoal/scenarios/currents/netcdf_time.hpp"
 #include "shoal/scenarios/inheritance.hpp"
 #include "shoal/scenarios/library_path.hpp"
+#include "shoal/solvers/matching/matching.hpp"
 
 namespace shoal::scenarios {
 namespace {
@@ -82,7 +83,7 @@ void QualityOptions::declare(Options<QualityOptions>& o) {
   o.integer("budget", &Q::budget, "", in(1, 1e15),
             "distances looked at before the proof is given up with a wider gap, for one instant, "
             "if alignment is \"rigid\"");
-  o.number("delta_theta_deg", &Q::delta_theta_deg, "deg", {0, 180, false},
+  o.number("delta_theta_deg", &Q::delta_theta_deg, "deg", in(solvers::least_delta_theta_deg, 180),
            "step of the rotations, if alignment is \"centroid\" or \"nearest_point\"");
 }
 

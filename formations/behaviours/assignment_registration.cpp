@@ -22,7 +22,7 @@ struct AssignmentRegistrationOptions {
              "neighbours further away are ignored (Rypkema 2015, Table 3.7)");
     o.number("ownship_weight", &A::ownship_weight, "", in(0, 1e3),
              "weight of the own position; the author's trials ran with 1");
-    o.number("delta_theta_deg", &A::delta_theta_deg, "deg", {0, 180, false},
+    o.number("delta_theta_deg", &A::delta_theta_deg, "deg", in(solvers::least_delta_theta_deg, 180),
              "step of the search over rotations; the thesis used 45 without currents, 10 in them");
     o.choice("matching", &A::matching, "finds slots and rotation");
   }

@@ -12,6 +12,9 @@
 
 namespace shoal::solvers {
 
+/// The finest step of a search that samples rotations: 36,000 of them.
+inline constexpr double least_delta_theta_deg = 0.01;
+
 /// Which slots of a plan do these points take, and how is the plan turned?
 ///
 /// `points`: what is seen, the own position first. `slots`: all slots of the plan. Both in metres,

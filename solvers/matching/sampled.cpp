@@ -84,7 +84,7 @@ class Sampled final : public Matcher {
         options_.centroids == Centroids::weighted ? problem.ownship_weight : 1.0;
     const double weight = own_weight + static_cast<double>(problem.points.size()) - 1.0;
     if (problem.points.empty() || problem.points.size() > problem.slots.size() ||
-        !(problem.delta_theta_deg > 0.0 && problem.delta_theta_deg <= 360.0) ||
+        !(problem.delta_theta_deg >= least_delta_theta_deg && problem.delta_theta_deg <= 360.0) ||
         !std::isfinite(problem.ownship_weight) || problem.ownship_weight < 0.0 || !(weight > 0.0) ||
         !all_finite(problem.points) || !all_finite(problem.slots)) {
       return {};

@@ -319,6 +319,23 @@ TEST_F(PlanFromFile, AcceptsCrlfAByteOrderMarkQuotesAndNoLastNewline) {
   EXPECT_EQ(read.name(0), "a, \"b\"");
 }
 
+TEST_F(PlanFromFile, RefusesWhatMayBeARowOrAComment) {
+  const std::string header = "name,x_m,y_m\n";
+  expect_complaint(header + "#1,0,0\nc,0,100\n", 2,
+                   "this may be a row with the name #1, or a comment; quote the name, or put a "
+                   "blank after #");
+  EXPECT_EQ(plan(header + "\"#1\",0,0\n# 2,5,5\n## 3,6,6\n#four\nc,0,100\n").size(), 2);
+}
+
+TEST_F(PlanFromFile, RefusesTextThatIsNotUtf8) {
+  const std::string advice = "; save the file as UTF-8 (from Latin-1: iconv -f latin1 -t utf8)";
+  expect_complaint("name,x_m,y_m\na,0,0\nM\xd6,1,1\n", 3,
+                   "byte 2 of this line is not UTF-8" + advice);
+  expect_complaint("name,x_m,y_m\n# M\xd6\na,0,0\n", 2,
+                   "byte 4 of this line is not UTF-8" + advice);
+  EXPECT_EQ(plan("name,x_m,y_m\na,0,0\nM\xc3\x96,1,1\n").name(1), "M\xc3\x96");
+}
+
 TEST_F(PlanFromFile, ComplainsOfBadFieldsWithTheirLine) {
   const std::string head = "name,x_m,y_m\n\na,0,0\n";
   expect_complaint(head + "b,one,0\n", 4, "x_m is \"one\"; it takes a finite number");

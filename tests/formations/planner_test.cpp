@@ -122,6 +122,27 @@ TEST(Planner, RefusesPingsThatCannotBe) {
   EXPECT_EQ(refusal({.slot = anonymous}), "");
 }
 
+TEST(Planner, RefusesTimesAndStatesThatCannotBeAndKeepsItsTarget) {
+  Engineer engineer(cross_plan);
+  engineer.hear(heard(cross_plan, 0, {}, {-20, 0}), 5.0, start);
+  const Vector2d before = engineer.planner.plan(6.0, {.position = start}).position;
+  const auto refusal = [&](double time_s, const OwnState& own) {
+    return complaint_of([&] { engineer.planner.plan(time_s, own); });
+  };
+  constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+  const std::string numbers =
+      "planning needs a finite time and a finite own state; the last target holds";
+  for (const double time_s : {nan, HUGE_VAL, -HUGE_VAL}) {
+    EXPECT_EQ(refusal(time_s, {.position = start}), numbers) << time_s;
+  }
+  EXPECT_EQ(refusal(7.0, {.position = {nan, 0}}), numbers);
+  EXPECT_EQ(refusal(7.0, {.position = start, .heading_rad = nan}), numbers);
+  EXPECT_EQ(refusal(5.9, {.position = start}),
+            "a plan at t = 5.9 s comes after a ping or a plan of t = 6 s; time must not go back");
+  EXPECT_EQ(engineer.planner.last_target().position, before);
+  EXPECT_EQ(engineer.planner.plan(6.0, {.position = start}).position, before);
+}
+
 TEST(Planner, ForgetsNothingOfARefusedPing) {
   Engineer engineer(cross_plan);
   engineer.hear(heard(cross_plan, 0, {}, {-20, 0}), 0.0, start);

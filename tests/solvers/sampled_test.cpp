@@ -254,7 +254,7 @@ TEST(Sampled, RefusesWhatItCannotMatch) {
 
 TEST(Sampled, RefusesAStepThatIsNoStep) {
   const auto slots = lattice(2, 2, 300.0);
-  for (const double step : {0.0, -10.0, 361.0, std::numeric_limits<double>::quiet_NaN()}) {
+  for (const double step : {0.0, 1e-7, -10.0, 361.0, std::numeric_limits<double>::quiet_NaN()}) {
     EXPECT_FALSE(matched(slots, slots, {.delta_theta_deg = step}).usable) << step;
   }
   EXPECT_THROW(sampled({.tie_m = -1.0}), InputError);
