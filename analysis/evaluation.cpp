@@ -2,6 +2,8 @@
 
 #include <fmt/core.h>
 
+#include <cmath>
+
 #include "shoal/core/text.hpp"
 
 namespace shoal::analysis {
@@ -50,7 +52,14 @@ std::string evaluated(const std::string& model, const std::string& file) {
       throw std::logic_error(model + " gives " + std::to_string(numbers.size()) + " numbers for " +
                              std::to_string(fields.size()) + " columns");
     }
-    for (std::size_t i = 0; i < numbers.size(); ++i) fields[i] = shortest(numbers[i]);
+    for (std::size_t i = 0; i < numbers.size(); ++i) {
+      if (!std::isfinite(numbers[i])) {
+        throw InputError(table.origin(row), evaluation->outputs()[i].name + " is " +
+                                                shortest(numbers[i]) +
+                                                " for this row: its inputs are beyond the model");
+      }
+      fields[i] = shortest(numbers[i]);
+    }
     append_line(text, fields);
   }
   return text;

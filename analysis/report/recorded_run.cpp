@@ -1,8 +1,11 @@
 #include "shoal/analysis/report/recorded_run.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "shoal/core/error.hpp"
+#include "shoal/core/text.hpp"
+#include "shoal/formations/behaviour.hpp"
 #include "shoal/scenarios/currents/netcdf_file.hpp"
 
 namespace shoal::analysis {
@@ -22,6 +25,22 @@ std::vector<double> all_of(const NetcdfFile& file, const NetcdfVariable& variabl
   return values;
 }
 
+/// What a file holds that shoal wrote, and a page can show.
+void require_possible(const NetcdfFile& file, const NetcdfVariable& variable,
+                      const std::vector<double>& values) {
+  constexpr double farthest = 1e12;
+  const bool is_reason = variable.name == "target_reason";
+  const auto possible = [&](double x) {
+    if (std::isnan(x)) return variable.name != "time";
+    if (is_reason) return x >= 0.0 && x < formations::reason_count && x == std::floor(x);
+    return std::abs(x) <= farthest;
+  };
+  const auto wrong = std::ranges::find_if_not(values, possible);
+  if (wrong != values.end()) {
+    file.refuse(variable.name + " is " + shortest(*wrong) + " somewhere, as in no run of shoal");
+  }
+}
+
 }  // namespace
 
 const std::vector<double>& RecordedRun::column(const std::string& name) const {
@@ -34,20 +53,26 @@ RecordedRun read_recorded_run(const std::filesystem::path& path) {
   const NetcdfFile file(path);
   const NetcdfVariable* time = file.find("time");
   const NetcdfVariable* x = file.find("x");
-  if (!time || !x || x->dimensions.size() != 2 || x->dimensions[0].name != "vehicle" ||
-      x->dimensions[1].name != "time") {
+  const auto along = [](const NetcdfVariable* variable, std::vector<std::string> names) {
+    return variable && variable->is_numeric &&
+           std::ranges::equal(variable->dimensions, names, {}, &scenarios::NetcdfDimension::name);
+  };
+  if (!along(time, {"time"}) || !along(x, {"vehicle", "time"})) {
     file.refuse("is none that shoal run wrote");
   }
+  if (x->dimensions[0].length == 0) file.refuse("holds no vehicle");
   RecordedRun run;
   run.time_s = all_of(file, *time);
+  require_possible(file, *time, run.time_s);
   run.vehicles = x->dimensions[0].length;
   for (const NetcdfVariable& variable : file.variables()) {
     if (!variable.is_numeric) continue;
     if (variable.dimensions == x->dimensions) {
       run.columns.emplace_back(variable.name, all_of(file, variable));
+      require_possible(file, variable, run.columns.back().second);
     } else if (variable.dimensions.size() == 1) {
       const NetcdfVariable* axis = file.find(variable.dimensions[0].name);
-      if (!axis || axis == &variable || axis->name != variable.name + "_time") continue;
+      if (axis == &variable || !along(axis, {variable.name + "_time"})) continue;
       run.series.push_back({variable.name, file.text(variable, "units"),
                             file.text(variable, "long_name"), all_of(file, *axis),
                             all_of(file, variable)});

@@ -35,7 +35,7 @@ std::string packed_modes(const RecordedRun& run, const ShownInstants& shown) {
   const std::vector<double> reason = at(run, shown, run.column("target_reason"));
   std::vector<std::uint8_t> modes;
   for (std::size_t k = 0; k < thrusting.size(); ++k) {
-    const bool lost = std::isnan(thrusting[k]);
+    const bool lost = std::isnan(thrusting[k]) || std::isnan(reason[k]);
     modes.push_back(
         lost ? 0 : static_cast<std::uint8_t>(2 * static_cast<int>(reason[k]) + (thrusting[k] > 0)));
   }

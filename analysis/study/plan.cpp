@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
+#include <map>
 #include <set>
 
 #include "shoal/analysis/measure.hpp"
@@ -22,6 +24,33 @@ bool is_taken(const std::string& name) {
   };
   return std::ranges::find(reserved, name) != reserved.end() || has(known_values()) ||
          has(known_series());
+}
+
+constexpr double most_trials = 1e7;
+
+/// The name as stores and exported files tell it from others: SQLite knows no case, and netCDF few
+/// signs.
+std::string stored_name(const std::string& name) {
+  std::string text;
+  for (const char c : name) {
+    const auto byte = static_cast<unsigned char>(c);
+    text += byte >= 128 ? c : std::isalnum(byte) != 0 ? static_cast<char>(std::tolower(byte)) : '_';
+  }
+  return text;
+}
+
+void require_distinct_factors(const Study& study) {
+  std::map<std::string, std::string> taken;
+  for (const Group& group : study.groups) {
+    for (const Factor& factor : group.factors) {
+      const std::string name = Axis(factor).name();
+      const std::string& other = taken.emplace(stored_name(name), name).first->second;
+      if (other == name) continue;
+      throw InputError(factor.origin, "the factors \"" + other + "\" and \"" + name +
+                                          "\" would have one column: names differ in letters and "
+                                          "digits, whatever their case; give it another name");
+    }
+  }
 }
 
 std::vector<CellSelection> exclusions(const Group& group) {
@@ -130,10 +159,19 @@ std::string PlannedGroup::key(std::size_t cell, int replication) const {
 }
 
 StudyPlan::StudyPlan(const Study& study) : study_(study) {
+  require_distinct_factors(study);
   for (const Group& group : study.groups) {
     const std::int64_t replications =
         group.replications > 0 ? group.replications : study.replications;
     groups_.emplace_back(group, replications);
+    const double trials =
+        static_cast<double>(groups_.back().cells()) * static_cast<double>(replications) +
+        static_cast<double>(trials_.size());
+    if (trials > most_trials) {
+      throw InputError(group.origin, "the study has " + shortest(trials) +
+                                         " trials, and may have " + shortest(most_trials) +
+                                         "; ask for fewer replications, levels or samples");
+    }
     first_trial_.push_back(trials_.size());
     for (std::size_t cell = 0; cell < groups_.back().cells(); ++cell) {
       for (int k = 0; k < replications; ++k) trials_.push_back({groups_.size() - 1, cell, k});

@@ -9,10 +9,26 @@
 namespace shoal::analysis {
 namespace {
 
+const char* advice(int code) {
+  switch (code & 0xff) {
+    case SQLITE_BUSY:
+    case SQLITE_LOCKED:
+      return "another program holds it; wait until that has ended";
+    case SQLITE_CORRUPT:
+    case SQLITE_NOTADB:
+      return "the file is damaged; move it away and run the study again";
+    case SQLITE_NOMEM:
+      return "there is not enough memory; close other programs";
+    default:
+      return "check free space and permissions";
+  }
+}
+
 [[noreturn]] void fail(sqlite3* connection) {
   const char* file = sqlite3_db_filename(connection, "main");
   throw SystemError("cannot use the store " + std::string(file ? file : "") + ": " +
-                    sqlite3_errmsg(connection) + "; check free space and permissions");
+                    sqlite3_errmsg(connection) + "; " +
+                    advice(sqlite3_extended_errcode(connection)));
 }
 
 }  // namespace

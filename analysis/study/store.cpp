@@ -1,5 +1,6 @@
 #include "shoal/analysis/study/store.hpp"
 
+#include <fmt/format.h>
 #include <sqlite3.h>
 
 #include <algorithm>
@@ -306,6 +307,14 @@ std::optional<StoredTrial> Store::find(const std::string& key) const {
   return db.read(select, db.metrics);
 }
 
+void Store::require_whole(const scenarios::Series& series, const std::string& key) const {
+  if (series.time_s.size() == series.values.size()) return;
+  throw InputError({database_->file.string(), 0},
+                   fmt::format("the series {} of the trial {} has {} instants and {} numbers; the "
+                               "file is damaged, delete it and run the study again",
+                               series.name, key, series.time_s.size(), series.values.size()));
+}
+
 std::vector<scenarios::Series> Store::series_of(const std::string& key) const {
   Statement select(database_->connection,
                    "SELECT name, unit, meaning, time_s, numbers FROM series WHERE trial_key = ? "
@@ -315,6 +324,7 @@ std::vector<scenarios::Series> Store::series_of(const std::string& key) const {
   while (select.step()) {
     all.push_back(
         {select.text(0), select.text(1), select.text(2), select.numbers(3), select.numbers(4)});
+    require_whole(all.back(), key);
   }
   return all;
 }
@@ -328,6 +338,7 @@ std::vector<std::pair<std::string, scenarios::Series>> Store::series(
   while (select.step()) {
     all.emplace_back(select.text(0), scenarios::Series{name, select.text(1), select.text(2),
                                                        select.numbers(3), select.numbers(4)});
+    require_whole(all.back().second, all.back().first);
   }
   return all;
 }

@@ -81,6 +81,8 @@ class Store {
   std::vector<std::string> series_names() const;
 
  private:
+  void require_whole(const scenarios::Series& series, const std::string& key) const;
+
   struct Database;
   std::unique_ptr<Database> database_;
 };

@@ -84,8 +84,14 @@ void require_known_quantities(const Study& study) {
   }
 }
 
+constexpr std::size_t longest_name = 100;
+
 std::optional<std::string> name_complaint(const std::string& name, const std::string& noun) {
   if (name.empty()) return noun + " needs a name";
+  if (name.size() > longest_name) {
+    return "the name " + name.substr(0, 20) + "... has " + std::to_string(name.size()) +
+           " letters; it becomes that of a file, and takes at most " + std::to_string(longest_name);
+  }
   const bool plain = name.find_first_not_of(
                          "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ"
                          "0123456789_-") == std::string::npos;

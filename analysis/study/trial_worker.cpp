@@ -1,14 +1,17 @@
 #include <fcntl.h>
+#include <poll.h>
 #include <spawn.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include <array>
 #include <cerrno>
+#include <cstdlib>
 #include <cstring>
 #include <iostream>
 #include <iterator>
 #include <nlohmann/json.hpp>
+#include <thread>
 
 #include "shoal/analysis/build_info.hpp"
 #include "shoal/analysis/study/trial_outcome.hpp"
@@ -87,6 +90,14 @@ std::string how_it_ended(int status) {
            " (" + ::strsignal(WTERMSIG(status)) + ")";
   }
   return "its process ended with status " + std::to_string(WEXITSTATUS(status));
+}
+
+/// Ends the process once the reader of its answer is gone; never returns.
+void end_with_reader() {
+  pollfd answer{STDOUT_FILENO, 0, 0};
+  while (::poll(&answer, 1, -1) < 0 && errno == EINTR) {
+  }
+  std::_Exit(1);
 }
 
 }  // namespace
@@ -173,6 +184,7 @@ TrialOutcome trial_outcome_of_worker(const std::string& program,
 }
 
 void serve_as_worker() {
+  std::thread(end_with_reader).detach();
   const std::string request{std::istreambuf_iterator<char>(std::cin), {}};
   std::cout << trial_answer(request) << std::flush;
 }

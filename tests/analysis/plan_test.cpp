@@ -50,6 +50,40 @@ TEST(Plan, TheLastFactorRunsFastestAndReplicationsWithinCells) {
   EXPECT_EQ(group.units(), (std::vector<std::string>{"", "s"}));
 }
 
+TEST(Plan, FactorsWhoseColumnsWouldBeOneAreRefused) {
+  const auto two = [](const std::string& first, const std::string& second) {
+    return base + "[[factor]]\nname = \"" + first +
+           "\"\nkey = \"ping.bearing_sd_deg\"\nvalues = [1, 2]\n[[factor]]\nname = \"" + second +
+           "\"\nkey = \"ping.range_sd_m\"\nvalues = [1, 2]\n";
+  };
+  for (const auto& [first, second] :
+       {std::pair("a", "A"), {"a b", "a#b"}, {"Noise_1", "noise 1"}}) {
+    const std::string why = complaint_of([&] { plan_of(two(first, second)); });
+    EXPECT_NE(
+        why.find("\"" + std::string(first) + "\" and \"" + second + "\" would have one column"),
+        std::string::npos)
+        << why;
+    EXPECT_TRUE(why.starts_with("study.toml:7: ")) << why;
+  }
+  EXPECT_NO_THROW(plan_of(two("a", "b")));
+  EXPECT_NO_THROW(plan_of(two("\u00e4", "a")));
+}
+
+TEST(Plan, MoreTrialsThanCanBePlannedAreRefusedAtOnce) {
+  const std::string many = "scenario = \"construction_square\"\nreplications = 1000000000\n";
+  EXPECT_NE(complaint_of([&] { plan_of(many); }).find("has 1e+09 trials, and may have 1e+07"),
+            std::string::npos);
+}
+
+TEST(Plan, NamesOfTablesAreThoseOfFiles) {
+  const auto named = [](const std::string& name) {
+    return base + "[[table]]\nname = \"" + name + "\"\nrows = []\nmetrics = [\"energy_mean_wh\"]\n";
+  };
+  EXPECT_NO_THROW(plan_of(named(std::string(100, 'x'))));
+  EXPECT_NE(complaint_of([&] { plan_of(named(std::string(300, 'x'))); }).find("takes at most 100"),
+            std::string::npos);
+}
+
 TEST(Plan, WithoutFactorsThereIsOneCell) {
   const StudyPlan plan = plan_of(base);
   EXPECT_EQ(plan.groups().front().cells(), 1u);

@@ -5,6 +5,7 @@
 
 import csv
 import os
+import pathlib
 import random
 import signal
 import sqlite3
@@ -42,6 +43,18 @@ metrics = ["energy_mean_wh", "quality_final_m"]
 """
 
 
+def children_of(pid):
+    return [int(child) for task in pathlib.Path(f"/proc/{pid}/task").glob("*/children")
+            for child in task.read_text().split()]
+
+
+def computes(pid):
+    try:
+        return pathlib.Path(f"/proc/{pid}/stat").read_text().rpartition(")")[2].split()[0] != "Z"
+    except FileNotFoundError:
+        return False
+
+
 class Sweep(StudyDesk):
     def test_the_tables_do_not_depend_on_the_number_of_jobs(self):
         self.assertIn(f"{TRIALS} of {TRIALS} trials are stored", self.sweep("--jobs", 1, out="one"))
@@ -73,6 +86,26 @@ class Sweep(StudyDesk):
         self.assertEqual(self.tables(), self.tables("whole"))
         self.assertEqual(self.rows("trial_id, energy_mean_wh"),
                          self.rows("trial_id, energy_mean_wh", "whole"))
+
+    def test_trials_end_with_the_sweep_that_began_them(self):
+        # Ipopt solves one problem at a time in a process, so that each trial gets its own.
+        ipopt = ('behaviour = { kind = "attraction_repulsion", attraction_repulsion.solver.kind = "ipopt" }\n'
+                 "trial.duration_s = 2000000")
+        self.write("long.toml", 'scenario = "construction_square"\n[set]\n' + ipopt)
+        with subprocess.Popen([desk.SHOAL, "sweep", "long.toml", "--jobs", "2"], cwd=self.desk,
+                              stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL) as running:
+            try:
+                workers = self.until(lambda: len(children := children_of(running.pid)) == 2 and children)
+            finally:
+                os.kill(running.pid, signal.SIGKILL)
+        self.until(lambda: not any(computes(worker) for worker in workers))
+
+    def until(self, true, seconds=20.0):
+        end = time.monotonic() + seconds
+        while not (found := true()):
+            self.assertLess(time.monotonic(), end)
+            time.sleep(0.02)
+        return found
 
     def test_sensitivities_are_tables_like_others(self):
         self.write("indices.toml", SENSITIVITY)
