@@ -6,6 +6,8 @@
 #include "shoal/analysis/study/claim_text.hpp"
 #include "shoal/analysis/study/study_files.hpp"
 #include "shoal/analysis/study/study_tables.hpp"
+#include "shoal/analysis/tables/latex_signs.hpp"
+#include "shoal/core/text.hpp"
 
 namespace shoal::program {
 namespace {
@@ -25,6 +27,11 @@ void write_all(const StudyResults& results, const std::vector<analysis::Table>& 
   const std::size_t written = analysis::write_tables(tables, claims, folder);
   print_state(results);
   fmt::print("written: {}/tables, {} tables as .tex, .csv and .md\n", folder, written);
+  for (const analysis::Table& table : tables) {
+    const auto unknown = analysis::unknown_to_latex(print(table, analysis::TableFormat::latex));
+    if (unknown.empty()) continue;
+    fmt::print("tables/{}.tex needs XeLaTeX or LuaLaTeX, for {}\n", table.name, listed(unknown));
+  }
   if (claims.statements.empty()) return;
   for (const std::string& line : analysis::count_lines(claims)) {
     fmt::print("{} (shoal claims {})\n", line, folder);

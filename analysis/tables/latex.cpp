@@ -1,11 +1,14 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "shoal/analysis/tables/latex_number.hpp"
+#include "shoal/analysis/tables/latex_signs.hpp"
 #include "shoal/analysis/tables/latex_text.hpp"
 #include "shoal/analysis/tables/layout.hpp"
+#include "shoal/core/text.hpp"
 
 namespace shoal::analysis {
 namespace {
@@ -101,7 +104,12 @@ std::string group_lines(const Layout& layout) {
   return "      " + titles + " \\\\\n      " + rules + "\n";
 }
 
-std::string tabular(const Table& table, const Layout& layout) {
+struct Body {
+  std::vector<std::string> specifications;
+  std::string head, rows;
+};
+
+Body body_of(const Table& table, const Layout& layout) {
   std::vector<LatexColumn> columns;
   for (std::size_t c = 0; c < layout.columns.size(); ++c) columns.emplace_back(layout, c);
   const auto line = [&](auto cell) {
@@ -109,18 +117,74 @@ std::string tabular(const Table& table, const Layout& layout) {
     for (std::size_t c = 0; c < columns.size(); ++c) joined += (c == 0 ? "" : " & ") + cell(c);
     return joined + " \\\\\n";
   };
-
-  std::string printed = "    \\begin{tabular}{@{}\n";
-  for (const LatexColumn& column : columns) printed += "      " + column.specification() + "\n";
-  printed += "      @{}}\n      \\toprule\n";
-  if (!layout.spans.empty()) printed += group_lines(layout);
-  printed += line([&](std::size_t c) { return columns[c].header(table.columns[c]); });
-  if (!table.rows.empty()) printed += "      \\midrule\n";
+  Body body;
+  for (const LatexColumn& column : columns) body.specifications.push_back(column.specification());
+  body.head = "      \\toprule\n";
+  if (!layout.spans.empty()) body.head += group_lines(layout);
+  body.head += line([&](std::size_t c) { return columns[c].header(table.columns[c]); });
+  if (!table.rows.empty()) body.head += "      \\midrule\n";
   for (std::size_t r = 0; r < table.rows.size(); ++r) {
-    printed +=
+    body.rows +=
         line([&](std::size_t c) { return columns[c].cell(table.rows[r][c], layout.rows[r][c]); });
   }
-  return printed + "      \\bottomrule\n    \\end{tabular}";
+  return body;
+}
+
+std::string tabular(const Table& table, const Layout& layout) {
+  const Body body = body_of(table, layout);
+  std::string printed = "    \\begin{tabular}{@{}\n";
+  for (const std::string& specification : body.specifications) {
+    printed += "      " + specification + "\n";
+  }
+  return printed + "      @{}}\n" + body.head + body.rows +
+         "      \\bottomrule\n    \\end{tabular}";
+}
+
+/// Characters of the longest text of a column: 0 of numbers.
+std::size_t longest_text(const Table& table, std::size_t column) {
+  std::size_t longest = 0;
+  for (const auto& row : table.rows) {
+    const auto* text = std::get_if<std::string>(&row[column]);
+    if (text) longest = std::max(longest, text->size());
+  }
+  return longest;
+}
+
+constexpr std::size_t longest_line = 40;  // of a text that is not broken into lines
+
+bool has_sentences(const Table& table) {
+  for (std::size_t c = 0; c < table.columns.size(); ++c) {
+    if (longest_text(table, c) > longest_line) return true;
+  }
+  return false;
+}
+
+/// Columns of sentences share what the others leave of the line, by the root of their lengths:
+/// twice the text takes 1.4 times the width and 1.4 times the lines.
+std::vector<std::string> with_paragraphs(std::vector<std::string> specifications,
+                                         const Table& table, const Layout& layout) {
+  constexpr double character = 0.012, gap = 0.02, least = 0.3;  // in widths of the line
+  double left = 1.0, roots = 0.0;
+  for (std::size_t c = 0; c < specifications.size(); ++c) {
+    const std::size_t longest = longest_text(table, c);
+    left -= gap;
+    if (longest > longest_line) {
+      roots += std::sqrt(static_cast<double>(longest));
+      continue;
+    }
+    const Extent extent = layout.columns[c].extents[0];
+    const std::size_t widest =
+        std::max({longest, table.columns[c].header.size(), extent.before + extent.after});
+    left -= character * static_cast<double>(widest);
+  }
+  left = std::max(left, least);
+  for (std::size_t c = 0; c < specifications.size(); ++c) {
+    const std::size_t longest = longest_text(table, c);
+    if (longest <= longest_line) continue;
+    specifications[c] = fmt::format(">{{\\raggedright\\arraybackslash}}p{{{:.3f}\\linewidth}}",
+                                    left * std::sqrt(static_cast<double>(longest)) / roots);
+  }
+  return specifications;
 }
 
 /// Those about all, each on a line of its own; then those of marks, one after another.
@@ -137,27 +201,62 @@ std::string notes(const std::vector<Note>& notes) {
   return printed;
 }
 
-}  // namespace
-
-std::string as_latex(const Table& table) {
-  const Layout layout(table);
+/// A float, scaled down if it is wider than the lines of the paper.
+std::string boxed(const Table& table, const Layout& layout, const std::string& label) {
   std::string printed =
       "% \\usepackage{booktabs,graphicx,siunitx}\n\\begin{table}\n  \\centering\n"
       "  \\sisetup{group-digits=false}%\n";
   if (!table.caption.empty()) {
     printed += "  \\setlength{\\belowcaptionskip}{\\medskipamount}%\n  \\caption{" +
                latex_escaped(table.caption) + "}\n";
-    // Without a caption, a label would be that of the section.
-    if (!table.name.empty()) printed += "  \\label{tab:" + table.name + "}\n";
+    if (!label.empty()) printed += "  " + label + "\n";
   }
   if (std::ranges::any_of(layout.columns, &LaidColumn::best)) {
     printed += "  \\def\\best#1#2{\\llap{\\boldmath$#1$}\\rlap{\\boldmath$#2$}}%\n";
   }
-  // The box tells how wide the notes may be; wider than the lines of the paper, it is scaled down.
+  // The box tells how wide the notes may be.
   printed += "  \\sbox0{%\n" + tabular(table, layout) + "}%\n";
   printed += "  \\ifdim\\wd0>\\linewidth\\sbox0{\\resizebox{\\linewidth}{!}{\\usebox0}}\\fi\n";
   printed += "  \\begin{minipage}{\\wd0}\n    \\usebox0\n" + notes(layout.notes);
   return printed + "  \\end{minipage}\n\\end{table}\n";
+}
+
+/// Sentences are broken into lines, and the table into pages.
+std::string paragraphs(const Table& table, const Layout& layout, const std::string& label) {
+  Body body = body_of(table, layout);
+  body.specifications = with_paragraphs(std::move(body.specifications), table, layout);
+  std::string printed =
+      "% \\usepackage{booktabs,longtable,siunitx}\n"
+      "% for pages of one column: longtable takes no others\n"
+      "{\\footnotesize\\sisetup{group-digits=false}\\setlength{\\tabcolsep}{3pt}%\n"
+      "  \\def\\best#1#2{\\llap{\\boldmath$#1$}\\rlap{\\boldmath$#2$}}%\n"
+      "  \\begin{longtable}{@{}\n";
+  for (const std::string& specification : body.specifications) {
+    printed += "      " + specification + "\n";
+  }
+  printed += "      @{}}\n";
+  if (!table.caption.empty()) {
+    printed += "      \\caption{" + latex_escaped(table.caption) + "}" + label + "\\\\\n";
+  }
+  printed += body.head + "      \\endfirsthead\n" + body.head +
+             "      \\endhead\n      \\bottomrule\n      \\endfoot\n" + body.rows +
+             "  \\end{longtable}\n";
+  if (!layout.notes.empty()) printed += notes(layout.notes) + "    \\par\n";
+  return printed + "}\n";
+}
+
+}  // namespace
+
+std::string as_latex(const Table& table) {
+  const Layout layout(table);
+  // Without a caption, a label would be that of the section.
+  const bool labelled = !table.caption.empty() && !table.name.empty();
+  const std::string label = labelled ? "\\label{tab:" + table.name + "}" : "";
+  const std::string printed =
+      has_sentences(table) ? paragraphs(table, layout, label) : boxed(table, layout, label);
+  const std::vector<std::string> unknown = unknown_to_latex(printed);
+  if (unknown.empty()) return printed;
+  return "% Needs XeLaTeX or LuaLaTeX and a font that has " + listed(unknown) + "\n" + printed;
 }
 
 }  // namespace shoal::analysis

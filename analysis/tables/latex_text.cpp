@@ -6,12 +6,13 @@
 #include <utility>
 #include <vector>
 
+#include "shoal/analysis/tables/latex_signs.hpp"
 #include "shoal/analysis/tables/layout.hpp"
 
 namespace shoal::analysis {
 
 std::string latex_escaped(const std::string& text) {
-  // In the default encoding < > and | print as other signs; ± and ° come from the fonts at hand.
+  // In the default encoding < > and | print as other signs.
   static const std::vector<std::pair<std::string_view, std::string_view>> spelt{
       {"\\", "\\textbackslash{}"},
       {"~", "\\textasciitilde{}"},
@@ -28,12 +29,17 @@ std::string latex_escaped(const std::string& text) {
       {"#", "\\#"},
       {"_", "\\_"},
       {"{", "\\{"},
-      {"}", "\\}"},
-      {"±", "$\\pm$"},
-      {"°", "$^{\\circ}$"}};
+      {"}", "\\}"}};
   const std::string line = on_one_line(text);
   std::string escaped;
   for (std::size_t at = 0; at < line.size();) {
+    std::size_t end = at + 1;
+    while (end < line.size() && (static_cast<unsigned char>(line[end]) & 0xc0u) == 0x80u) ++end;
+    if (const auto sign = latex_sign(std::string_view(line).substr(at, end - at))) {
+      escaped += *sign;
+      at = end;
+      continue;
+    }
     const auto found =
         std::ranges::find_if(spelt, [rest = std::string_view(line).substr(at)](const auto& pair) {
           return rest.starts_with(pair.first);

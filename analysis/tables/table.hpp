@@ -92,7 +92,8 @@ enum class TableFormat { text, csv, markdown, latex, html };
 ///    separated by blanks) where any is. Numbers are in full
 ///    precision.
 ///  - `markdown`: a pipe table of GitHub. Best values are bold.
-///  - `latex`: a table environment that needs booktabs and siunitx (2 or 3). Best values are bold.
+///  - `latex`: a table environment that needs booktabs, graphicx and siunitx (2 or 3), or, of one
+///    with sentences, a longtable. Best values are bold.
 ///  - `html`: a table element with its caption, in a figure with its notes. Best values are strong.
 ///
 /// Throws std::invalid_argument for a table without columns, rows of another length, columns that

@@ -26,7 +26,7 @@ OVERFULL = re.compile(r"^Overfull \\[hv]box \(([\d.]+)pt too (?:wide|high).*", r
 
 def document(siunitx, tables):
     head = (r"\documentclass{article}\usepackage[a4paper,margin=2cm]{geometry}"
-            r"\usepackage{booktabs,graphicx}")
+            r"\usepackage{booktabs,graphicx,longtable}")
     pages = "\n\\clearpage\n".join(tables)
     return f"{head}{siunitx}\\pagestyle{{empty}}\n\\begin{{document}}\n{pages}\n\\end{{document}}\n"
 

@@ -3,6 +3,7 @@
 #include <limits>
 #include <stdexcept>
 
+#include "shoal/analysis/tables/latex_signs.hpp"
 #include "shoal/analysis/tables/latex_text.hpp"
 #include "shoal/analysis/tables/number.hpp"
 #include "shoal/analysis/tables/table.hpp"
@@ -126,6 +127,14 @@ TEST(Tables, RefuseColumnsOfOneNameInCsv) {
   EXPECT_THROW(print(table, csv), std::invalid_argument);
 }
 
+TEST(Tables, HaveCsvWhoseLabelsAreNoFormulas) {
+  Table table{.columns = {{"label"}, {"x"}}};
+  for (const char* label : {"=1+1", "+a", "-a", "@a", "-1.5", "a=b"}) {
+    table.rows.push_back({std::string(label), Estimate{-2.0}});
+  }
+  EXPECT_EQ(print(table, csv), "label,x\n'=1+1,-2\n'+a,-2\n'-a,-2\n'@a,-2\n-1.5,-2\na=b,-2\n");
+}
+
 TEST(Tables, HaveCsvOfFullPrecision) {
   EXPECT_EQ(print(of(Estimate{.value = 1.0 / 3.0,
                               .uncertainty = Between{-1e-300, 123456789.123},
@@ -198,6 +207,22 @@ TEST(LatexText, EscapesCommandsAndLigatures) {
   EXPECT_EQ(latex_escaped("\\~^${}#_&%"),
             "\\textbackslash{}\\textasciitilde{}\\textasciicircum{}\\$\\{\\}\\#\\_\\&\\%");
   EXPECT_EQ(latex_escaped("---a``-"), "-{}-{}-a`{}`-");
+}
+
+TEST(LatexText, SpellsGreekAndMathematics) {
+  EXPECT_EQ(latex_escaped("Δθ ≤ 5°"), "$\\Delta$$\\theta$ $\\leq$ 5$^{\\circ}$");
+  EXPECT_EQ(latex_escaped("a → ∞ – ß"), "a $\\rightarrow$ $\\infty$ -- \\ss{}");
+  EXPECT_EQ(latex_escaped("Märzenbecher, Žižek"), "Märzenbecher, Žižek");
+}
+
+TEST(LatexText, SaysWhatHasNoSpelling) {
+  EXPECT_EQ(unknown_to_latex("a 漢 Ö 🐟 漢"), (std::vector<std::string>{"漢", "🐟"}));
+  Table table = of(Estimate{1.0});
+  EXPECT_TRUE(print(table, latex).starts_with("% \\usepackage"));
+  table.caption = "漢 and Δ";
+  EXPECT_TRUE(
+      print(table, latex)
+          .starts_with("% Needs XeLaTeX or LuaLaTeX and a font that has 漢\n% \\usepackage"));
 }
 
 TEST(LatexText, SpellsUnits) {
