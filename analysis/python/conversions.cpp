@@ -1,5 +1,10 @@
 #include "conversions.hpp"
 
+#include <optional>
+#include <string_view>
+
+#include "shoal/core/nesting.hpp"
+
 namespace shoal::python {
 namespace {
 
@@ -11,41 +16,72 @@ Setting plain(auto value) {
   return Setting{std::move(value), {}};
 }
 
-}  // namespace
+/// What it is instead, if it is no real number.
+std::optional<std::string> no_real_kind(py::handle value) {
+  if (value.is_none()) return "None";
+  // numpy's complex numbers would convert, with a warning only.
+  const bool complex_scalar =
+      py::hasattr(value, "dtype") && py::str(value.attr("dtype").attr("kind")).equal(py::str("c"));
+  if (PyComplex_Check(value.ptr()) || complex_scalar) return "a complex number";
+  if (py::hasattr(value, "__float__") || py::hasattr(value, "__index__")) return std::nullopt;
+  return "a " + type_of(value);
+}
 
-Setting to_setting(py::handle value) {
-  if (py::hasattr(value, "_setting_")) return to_setting(value.attr("_setting_")());
+Setting setting_within(py::handle value, std::size_t depth);
+
+Setting table_of(const py::dict& entries, std::size_t depth) {
+  Setting table;
+  for (const auto& [key, entry] : entries) {
+    if (!py::isinstance<py::str>(key)) {
+      throw InputError("a key is a " + type_of(key) + "; keys are texts, as \"trial.seed\"");
+    }
+    Setting branch;
+    assign(branch, key.cast<std::string>(), setting_within(entry, depth));
+    overlay(table, std::move(branch));
+  }
+  return table;
+}
+
+/// numpy's numbers are neither int nor float, and say of themselves what they are.
+std::int64_t integer_of(py::handle value) {
+  const auto integer = py::reinterpret_steal<py::object>(PyNumber_Index(value.ptr()));
+  if (!integer) throw py::error_already_set();
+  int beyond = 0;
+  const long long number = PyLong_AsLongLongAndOverflow(integer.ptr(), &beyond);
+  if (beyond != 0) throw InputError("an integer has more than 64 bits, which no option takes");
+  return number;
+}
+
+Setting setting_within(py::handle value, std::size_t depth) {
+  if (depth == 0) {
+    throw InputError("a value is nested more than " + std::to_string(deepest_nesting) +
+                     " deep, or contains itself");
+  }
+  const std::size_t below = depth - 1;
+  if (py::hasattr(value, "_setting_")) return setting_within(value.attr("_setting_")(), below);
   if (py::isinstance<py::bool_>(value)) return plain(value.cast<bool>());
   if (py::isinstance<py::str>(value)) return plain(value.cast<std::string>());
-  if (py::isinstance<py::dict>(value)) {
-    Setting table;
-    for (const auto& [key, entry] : value.cast<py::dict>()) {
-      if (!py::isinstance<py::str>(key)) {
-        throw InputError("a key is a " + type_of(key) + "; keys are texts, as \"trial.seed\"");
-      }
-      Setting branch;
-      assign(branch, key.cast<std::string>(), to_setting(entry));
-      overlay(table, std::move(branch));
-    }
-    return table;
-  }
+  if (py::isinstance<py::dict>(value)) return table_of(value.cast<py::dict>(), below);
   if (py::hasattr(value, "__fspath__")) {
     return plain(value.attr("__fspath__")().cast<std::string>());
   }
-  // numpy's numbers are neither int nor float, and say of themselves what they are.
-  if (py::hasattr(value, "__index__")) {
-    return plain(py::int_(value.attr("__index__")()).cast<std::int64_t>());
-  }
+  if (py::hasattr(value, "__index__")) return plain(integer_of(value));
   if (py::isinstance<py::float_>(value) ||
       (py::hasattr(value, "__float__") && !py::hasattr(value, "__len__"))) {
     return plain(value.cast<double>());
   }
   if (py::hasattr(value, "__iter__")) {
     Setting::List list;
-    for (const py::handle entry : value) list.push_back(to_setting(entry));
+    for (const py::handle entry : value) list.push_back(setting_within(entry, below));
     return plain(std::move(list));
   }
   throw InputError("a value is a " + type_of(value) + ", which no option takes");
+}
+
+}  // namespace
+
+Setting to_setting(py::handle value) {
+  return setting_within(value, deepest_nesting);
 }
 
 py::object to_python(const Setting& setting) {
@@ -66,6 +102,34 @@ py::object to_python(const Setting& setting) {
     }
   };
   return std::visit(Visitor{}, setting.value);
+}
+
+double real_number(py::handle answer, const std::string& what) {
+  const auto refuse = [&](const std::string& given) {
+    throw InputError(what + " returned " + given + "; it has to return one real number");
+  };
+  if (py::hasattr(answer, "ndim") && answer.attr("ndim").cast<int>() > 0) {
+    refuse("an array of shape " + std::string(py::str(answer.attr("shape"))));
+  }
+  if (const auto given = no_real_kind(answer)) refuse(*given);
+  const double number = PyFloat_AsDouble(answer.ptr());
+  if (PyErr_Occurred()) throw py::error_already_set();
+  return number;
+}
+
+Array real_array(py::handle answer, const std::string& what) {
+  const auto refuse = [&](const std::string& given) {
+    throw InputError(what + " returned " + given + "; it has to return an array of real numbers");
+  };
+  if (answer.is_none()) refuse("None");
+  const py::array array = py::array::ensure(answer);
+  if (!array) refuse("a " + type_of(answer));
+  const char kind = array.dtype().kind();
+  if (kind == 'c') refuse("complex numbers");
+  if (std::string_view("biuf").find(kind) == std::string_view::npos) {
+    refuse("an array of " + std::string(py::str(array.dtype())));
+  }
+  return array.cast<Array>();
 }
 
 std::vector<Eigen::Vector2d> points(const Array& array, const char* what) {

@@ -20,11 +20,16 @@ Setting to_setting(py::handle value);
 
 py::object to_python(const Setting& setting);
 
-/// Rows (x, y) in metres. Throws InputError unless the array has two columns and is finite.
-std::vector<Eigen::Vector2d> points(
-    const py::array_t<double, py::array::c_style | py::array::forcecast>& array, const char* what);
-
 using Array = py::array_t<double, py::array::c_style | py::array::forcecast>;
+
+/// What a function of Python's returned, `what` in messages. Throws InputError unless it is one
+/// real number, or an array of real numbers (for None, text, complex numbers ...); what a
+/// conversion raises comes out as it is. NaN and infinity pass.
+double real_number(py::handle answer, const std::string& what);
+Array real_array(py::handle answer, const std::string& what);
+
+/// Rows (x, y) in metres. Throws InputError unless the array has two columns and is finite.
+std::vector<Eigen::Vector2d> points(const Array& array, const char* what);
 
 // What each file adds to the module.
 void add_trials(py::module_& module);

@@ -1,3 +1,4 @@
+#include <array>
 #include <cmath>
 #include <map>
 #include <mutex>
@@ -6,6 +7,7 @@
 
 #include "conversions.hpp"
 #include "shoal/core/options_impl.hpp"
+#include "shoal/core/text.hpp"
 #include "shoal/formations/potential.hpp"
 
 namespace shoal::python {
@@ -68,10 +70,18 @@ struct PythonFunction {
   }
 };
 
+/// Value, slope and curvature, as they were returned.
+std::array<py::object, 3> answers_of(const py::object& function, const py::object& r, double s) {
+  return function(r, s).cast<std::array<py::object, 3>>();
+}
+
+constexpr std::array parts{"the potential", "its slope", "its curvature"};
+
 std::vector<RadialValue> asked(const py::object& function, std::span<const double> r, double s) {
   const Array distances(static_cast<py::ssize_t>(r.size()), r.data());
-  const auto [value, slope, curvature] =
-      function(distances, s).cast<std::tuple<Array, Array, Array>>();
+  const std::array<py::object, 3> given = answers_of(function, distances, s);
+  const Array value = real_array(given[0], parts[0]), slope = real_array(given[1], parts[1]),
+              curvature = real_array(given[2], parts[2]);
   for (const Array* each : {&value, &slope, &curvature}) {
     if (each->size() != distances.size()) {
       throw InputError("the function gave " + std::to_string(each->size()) + " numbers for " +
@@ -144,7 +154,10 @@ class PythonPotential final : public Potential {
       : options_(function), function_(Functions::instance().find(function.key())) {}
 
   void prepare(double separation_m) override {
-    if (!options_.batch) return;
+    if (!options_.batch) {
+      derivatives(separation_m, separation_m);  // what no run could use is refused before it
+      return;
+    }
     const py::gil_scoped_acquire held;
     table_.emplace(*function_, options_.from_m, options_.to_m, separation_m);
     prepared_m_ = separation_m;
@@ -158,9 +171,15 @@ class PythonPotential final : public Potential {
     }
     const py::gil_scoped_acquire held;
     if (options_.batch) return asked(*function_, std::span(&r, 1), s).front();
-    const auto [value, slope, curvature] =
-        (*function_)(r, s).cast<std::tuple<double, double, double>>();
-    return {value, slope, curvature};
+    const std::array<py::object, 3> given = answers_of(*function_, py::float_(r), s);
+    std::array<double, 3> numbers{};
+    for (std::size_t i = 0; i < numbers.size(); ++i) {
+      numbers[i] = real_number(given[i], parts[i]);
+      if (std::isfinite(numbers[i]) || r == 0.0) continue;
+      throw InputError(std::string(parts[i]) + " is " + shortest(numbers[i]) + " at r = " +
+                       shortest(r) + " m and s = " + shortest(s) + " m; it has to be finite");
+    }
+    return {numbers[0], numbers[1], numbers[2]};
   }
 
  private:

@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "conversions.hpp"
+#include "shoal/core/text.hpp"
 #include "shoal/formations/behaviour.hpp"
 #include "shoal/solvers/loss.hpp"
 #include "shoal/solvers/matching/matching.hpp"
@@ -39,11 +40,12 @@ class PythonCost final : public solvers::Objective {
   }
 
  private:
-  double value(const Vector& x) const { return functions_->cost(x).cast<double>(); }
+  double value(const Vector& x) const { return real_number(functions_->cost(x), "the cost"); }
 
   Vector slope(const Vector& x) const {
     if (!functions_->gradient.is_none()) {
-      const auto given = functions_->gradient(x).cast<Vector>();
+      const Array entries = real_array(functions_->gradient(x), "the gradient");
+      const Vector given = Eigen::Map<const Vector>(entries.data(), entries.size());
       if (given.size() != dimension_) {
         throw InputError("the gradient has " + std::to_string(given.size()) + " entries for " +
                          std::to_string(dimension_) + " unknowns");
@@ -60,12 +62,13 @@ class PythonCost final : public solvers::Objective {
 
   Eigen::MatrixXd curvature(const Vector& x) const {
     if (!functions_->hessian.is_none()) {
-      const auto given = functions_->hessian(x).cast<Eigen::MatrixXd>();
-      if (given.rows() != dimension_ || given.cols() != dimension_) {
+      const Array entries = real_array(functions_->hessian(x), "the Hessian");
+      if (entries.ndim() != 2 || entries.shape(0) != dimension_ || entries.shape(1) != dimension_) {
         throw InputError("the Hessian is no matrix of " + std::to_string(dimension_) + " by " +
                          std::to_string(dimension_));
       }
-      return given;
+      // Rows for columns: it is symmetric.
+      return Eigen::Map<const Eigen::MatrixXd>(entries.data(), dimension_, dimension_).transpose();
     }
     Eigen::MatrixXd H(dimension_, dimension_);
     const bool exact_slope = !functions_->gradient.is_none();
@@ -187,6 +190,19 @@ py::dict matched(const Array& seen, const Array& slots, double ownship_weight,
                  double delta_theta_deg, const std::string& kind) {
   const std::vector<Eigen::Vector2d> places = points(seen, "points");
   const std::vector<Eigen::Vector2d> plan = points(slots, "slots");
+  if (!(delta_theta_deg >= solvers::least_delta_theta_deg && delta_theta_deg <= 360.0)) {
+    throw InputError("delta_theta_deg is " + shortest(delta_theta_deg) + "; it takes from " +
+                     shortest(solvers::least_delta_theta_deg) + " to 360 deg");
+  }
+  if (!(ownship_weight >= 0.0 && std::isfinite(ownship_weight))) {
+    throw InputError("ownship_weight is " + shortest(ownship_weight) +
+                     "; it takes a finite number of at least 0");
+  }
+  if (places.empty() || places.size() > plan.size()) {
+    throw InputError("there are " + std::to_string(places.size()) + " points for " +
+                     std::to_string(plan.size()) +
+                     " slots; there has to be a point, and a slot for each");
+  }
   const auto matcher = Registry<solvers::Matcher>::instance().make(kind, {}, "matching." + kind);
   const solvers::MatchingSolution solution = matcher->solve({.points = places,
                                                              .slots = plan,

@@ -38,10 +38,10 @@ class Cluster:
         self.address = f"tcp://127.0.0.1:{self._scheduler()}"
         self.workers = [self.start_worker() for _ in range(workers)]
 
-    def _start(self, name, *words):
+    def _start(self, name, *words, **settings):
         with open(self.folder / name, "w", encoding="utf-8") as log:
             process = subprocess.Popen([sys.executable, "-m", *words], cwd=self.folder,
-                                       stdout=subprocess.DEVNULL, stderr=log)
+                                       stdout=subprocess.DEVNULL, stderr=log, **settings)
         self.processes.append(process)
         return process
 
@@ -55,10 +55,10 @@ class Cluster:
             time.sleep(0.1)
         raise RuntimeError("the scheduler does not start")
 
-    def start_worker(self):
+    def start_worker(self, **settings):
         return self._start(f"worker-{len(self.processes)}.log", "distributed.cli.dask_worker",
                            self.address, "--nthreads", "1", "--nworkers", "1", "--no-nanny",
-                           "--no-dashboard", "--local-directory", str(self.folder))
+                           "--no-dashboard", "--local-directory", str(self.folder), **settings)
 
     def stop(self):
         for process in self.processes:
@@ -145,6 +145,25 @@ class Distributed(StudyDesk):
         self.assertGreaterEqual(stored, 2)
         said = self.sweep()
         self.assertIn(f"24 of 24 trials are stored, {24 - stored} of them run now", said)
+
+    def test_a_worker_without_the_package_is_named(self):
+        self.write("study.toml", SHORT)
+        cluster, client = self.cluster(0)
+        bare = {name: value for name, value in os.environ.items() if name != "PYTHONPATH"}
+        cluster.start_worker(env=bare)
+        client.wait_for_workers(1, timeout=60)
+        worker = next(iter(client.scheduler_info()["workers"]))
+        done = self.shoal("sweep", "study.toml", "--dask", cluster.address)
+        self.assert_complains(done, 1, [f"the worker {worker} cannot import shoal", "PYTHONPATH="])
+
+    def test_a_sweep_without_workers_says_that_it_waits(self):
+        self.write("study.toml", SHORT)
+        cluster, _ = self.cluster(0)
+        with subprocess.Popen([desk.SHOAL, "sweep", "study.toml", "--dask", cluster.address],
+                              cwd=self.desk, stderr=subprocess.PIPE, text=True) as waiting:
+            self.assertIn("no worker has joined", waiting.stderr.readline())
+            cluster.start_worker()
+            self.assertEqual(waiting.wait(timeout=120), 0)
 
     def test_workers_that_die_of_a_trial_are_told(self):
         self.write("study.toml", SHORT)

@@ -3,6 +3,7 @@
     PYTHONPATH=build/ci/python python3 python_test.py SHOAL
 """
 
+import concurrent.futures
 import json
 import math
 import pathlib
@@ -109,6 +110,41 @@ class Trials(Desk):
         self.assertGreater(len(during), 20)
 
 
+    def test_threads_may_run_trials_at_once(self):
+        settings = {"trial.duration_s": 120}
+        alone = shoal.run("redsea_square", settings, seed=1)
+        with concurrent.futures.ThreadPoolExecutor(6) as pool:
+            runs = list(pool.map(lambda _: shoal.run("redsea_square", settings, seed=1), range(24)))
+        for run in runs:
+            self.assertEqual(run.measures, alone.measures)
+            self.assertTrue(run.dataset.identical(alone.dataset))
+
+    def test_values_that_no_option_takes(self):
+        deep = 1
+        for _ in range(3000):
+            deep = [deep]
+        endless = {}
+        endless["trial"] = endless
+        for wrong, why in [
+            ({"trial": {"seed": 2**70}}, "more than 64 bits"),
+            ({"trial": {"seed": deep}}, "nested more than 100 deep"),
+            (endless, "contains itself"),
+            ({".".join("a" * 60000): 1}, "a key has 60000 parts"),
+        ]:
+            with self.assertRaisesRegex(shoal.InputError, why):
+                shoal.run("redsea_square", wrong)
+
+    def test_counts_are_whole_numbers(self):
+        for seed in (1.9, "7", True, numpy.float64(3)):
+            with self.assertRaisesRegex(shoal.InputError, "seed is .*; it takes an integer"):
+                shoal.run("construction_square", {"trial.duration_s": 10}, seed=seed)
+        shoal.run("construction_square", {"trial.duration_s": 10}, seed=numpy.int32(3))
+        for option, wrong in (("replications", -1), ("replications", 1.5), ("jobs", 0), ("jobs", "2")):
+            with self.assertRaisesRegex(shoal.InputError, f"{option} is {wrong!r}; it takes"):
+                shoal.sweep(STUDY, self.desk / "out", **{option: wrong})
+        self.assertFalse((self.desk / "out").exists())
+
+
 class Potentials(Desk):
     def test_one_law_in_four_forms_gives_one_trajectory(self):
         forms = [shoal.potential("thesis"), shoal.potential(thesis),
@@ -164,6 +200,34 @@ class Potentials(Desk):
             shoal.potential(thesis, slope=thesis)
         with self.assertRaisesRegex(shoal.InputError, 'no potential "spring"'):
             shoal.potential("spring")
+
+    def test_a_law_returns_real_finite_numbers_in_either_form(self):
+        def law(**wrong):
+            parts = {"value": lambda r, s: r * 0 + 1, "slope": lambda r, s: r * 0,
+                     "curvature": lambda r, s: r * 0, **wrong}
+            return parts["value"], {"slope": parts["slope"], "curvature": parts["curvature"]}
+
+        wrongs = ((lambda r, s: r * math.nan, "nan|not finite"), (lambda r, s: r * math.inf, "inf|not finite"),
+                  (lambda r, s: None, "returned None"), (lambda r, s: "1", "returned (text|an array of)"),
+                  (lambda r, s: r * 1j, "complex"))
+        for part in ("value", "slope", "curvature"):
+            for wrong, says in wrongs:
+                for batch in (False, True):
+                    value, derivatives = law(**{part: wrong})
+                    potential = shoal.potential(value, **derivatives, batch=batch, version="1")
+                    with self.subTest(part=part, says=says, batch=batch):
+                        with self.assertRaisesRegex(shoal.InputError, says):
+                            shoal.run("construction_hexagonal", {**REPELLED, LAW: potential})
+
+    def test_what_a_conversion_raises_comes_out_unchanged(self):
+        class Odd:
+            def __float__(self):
+                raise KeyError("mine")
+
+        law = shoal.potential(lambda r, s: Odd(), slope=lambda r, s: 0.0, curvature=lambda r, s: 0.0,
+                              version="1")
+        with self.assertRaisesRegex(KeyError, "mine"):
+            shoal.run("construction_hexagonal", {**REPELLED, LAW: law})
 
     def test_what_a_cost_raises_comes_out_unchanged(self):
         def broken(r, s):
@@ -316,6 +380,33 @@ class Problems(Desk):
         other = shoal.solve(posed[0], "nlopt.lbfgs")
         self.assertEqual(newton.status, "converged")
         numpy.testing.assert_allclose(other.x, newton.x, atol=1e-3)
+
+    def test_a_cost_returns_one_real_number(self):
+        start = numpy.array([0.5, 0.5])
+        for wrong, says in ((lambda x: None, "the cost returned None; it has to return one real number"),
+                            (lambda x: x, r"returned an array of shape \(2,\)"),
+                            (lambda x: "1", "returned text"), (lambda x: 1j, "a complex number"),
+                            (lambda x: numpy.complex128(1), "a complex number"),
+                            (lambda x: {}, "returned a dict")):
+            with self.assertRaisesRegex(shoal.InputError, says):
+                shoal.solve(shoal.Problem(wrong, start))
+        for right in (lambda x: int(x[0] > 9), lambda x: numpy.float32(3), lambda x: numpy.array(2.0)):
+            shoal.solve(shoal.Problem(right, start))
+        for part in ("gradient", "hessian"):
+            for wrong, says in ((lambda x: None, f"the {part} returned None".replace("hess", "Hess")),
+                                (lambda x: numpy.ones(2) * 1j, "complex numbers")):
+                with self.assertRaisesRegex(shoal.InputError, says):
+                    shoal.solve(shoal.Problem(lambda x: x @ x, start, **{part: wrong}))
+
+    def test_a_match_that_cannot_be_is_refused_in_words(self):
+        places = numpy.eye(2) * 100
+        for step in (0, 1e-7, -10, 361, math.nan):
+            with self.assertRaisesRegex(shoal.InputError, "delta_theta_deg is .*; it takes from"):
+                shoal.match(places, places, delta_theta_deg=step)
+        with self.assertRaisesRegex(shoal.InputError, "3 points for 2 slots"):
+            shoal.match(numpy.ones((3, 2)), places)
+        with self.assertRaisesRegex(shoal.InputError, "0 points"):
+            shoal.match(numpy.ones((0, 2)), places)
 
     def test_registration_and_matching(self):
         points = numpy.array([[0, 0], [100, 0], [0, 50], [30, 30]], float)

@@ -9,7 +9,7 @@ import tempfile
 from typing import TYPE_CHECKING, Any, Callable, Mapping
 
 from . import _shoal
-from ._trials import name_of, plain
+from ._trials import name_of, plain, whole
 
 if TYPE_CHECKING:
     import pandas
@@ -34,7 +34,13 @@ def sweep(study: str | os.PathLike[str] | Mapping[str, Any],
     SystemError.
     """
     folder = folder_of(study, out)
-    _shoal.sweep(plain(study), folder, jobs or os.cpu_count() or 1, replications, rerun_changed,
+    jobs = (os.cpu_count() or 1) if jobs is None else whole(jobs, "jobs")
+    replications = whole(replications, "replications")
+    if jobs < 1:
+        raise _shoal.InputError(f"jobs is {jobs}; it takes at least 1")
+    if replications < 0:
+        raise _shoal.InputError(f"replications is {replications}; it takes at least 1, or 0 for those of the study")
+    _shoal.sweep(plain(study), folder, jobs, replications, rerun_changed,
                  retry_failed, progress)
     write_tables(folder)
     return trials(folder)
@@ -57,7 +63,8 @@ def study_dataset(folder: str | os.PathLike[str], group: str | None = None) -> x
     with tempfile.TemporaryDirectory(prefix="shoal-") as temporary:
         file = os.path.join(temporary, "study.nc")
         _shoal.export_netcdf(os.fspath(folder), file)
-        return xarray.load_dataset(file, group=group, decode_times=False)
+        with _shoal.NetcdfLock():
+            return xarray.load_dataset(file, group=group, decode_times=False)
 
 
 def tables(folder: str | os.PathLike[str]) -> dict[str, _shoal.Table]:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import operator
 import os
 import pathlib
 import tempfile
@@ -27,6 +28,13 @@ class Run(NamedTuple):
 def plain(value: Any) -> Any:
     """Names and paths as text, mappings as dicts."""
     return dict(value) if isinstance(value, Mapping) else os.fspath(value)
+
+
+def whole(value: Any, what: str) -> int:
+    """An integer, also one of numpy's. Raises InputError for fractions, text and flags."""
+    if isinstance(value, bool) or not hasattr(value, "__index__"):
+        raise _shoal.InputError(f"{what} is {value!r}; it takes an integer")
+    return operator.index(value)
 
 
 def name_of(value: Any, otherwise: str) -> str:
@@ -60,7 +68,7 @@ def run(scenario: str | os.PathLike[str] | Mapping[str, Any],
     """
     changes = dict(set or {})
     if seed is not None:
-        changes["trial.seed"] = int(seed)
+        changes["trial.seed"] = whole(seed, "seed")
     with tempfile.TemporaryDirectory(prefix="shoal-") as temporary:
         folder = pathlib.Path(out if out is not None else temporary)
         summary = _shoal.run(plain(scenario), changes, name_of(scenario, "scenario"), str(folder),
@@ -73,4 +81,5 @@ def _dataset(file: pathlib.Path) -> xarray.Dataset | None:
         return None
     import xarray
 
-    return xarray.load_dataset(file, decode_times=False)
+    with _shoal.NetcdfLock():
+        return xarray.load_dataset(file, decode_times=False)

@@ -19,6 +19,7 @@ from __future__ import annotations
 import argparse
 import logging
 import os
+import pathlib
 import sys
 import time
 import uuid
@@ -88,6 +89,8 @@ def run(open_sweep: _shoal.OpenSweep, client: Client, batch: int,
                 done.add(submit())
             try:
                 future, found = next(done)  # raises what a task raised
+            except ModuleNotFoundError as error:
+                raise _shoal.SystemError(_without_package(client, error) + AGAIN) from error
             except KilledWorker as error:
                 raise _shoal.SystemError(f"one worker after the other dies of a trial ({error})"
                                          + AGAIN) from error
@@ -100,6 +103,16 @@ def run(open_sweep: _shoal.OpenSweep, client: Client, batch: int,
     finally:
         for future in list(done.futures):
             future.cancel()
+
+
+def _without_package(client: Client, error: ModuleNotFoundError) -> str:
+    # A lambda travels as code; a function of this module would need the module.
+    can_import = lambda name: __import__("importlib.util").util.find_spec(name) is not None  # noqa: E731
+    name = error.name or "shoal"
+    lacking = [worker for worker, can in client.run(can_import, name).items() if not can]
+    where = f"the worker{'s' * (len(lacking) > 1)} {' and '.join(sorted(lacking))}" if lacking else "a worker"
+    package = pathlib.Path(__file__).resolve().parent.parent
+    return f"{where} cannot import {name}; start workers with PYTHONPATH={package}, or install the package there"
 
 
 def answers(requests: list[str]) -> list[str]:
@@ -142,6 +155,9 @@ def _main() -> int:
         return _complain(f"no scheduler of dask answers at {wanted.address} ({error}); start "
                          "dask-scheduler there", 1)
     shown = sys.stderr.isatty()
+    if not client.scheduler_info()["workers"]:
+        print(f"shoal: no worker has joined {wanted.address} yet; waiting for dask-worker {wanted.address}",
+              file=sys.stderr, flush=True)
 
     last: dict[str, Any] = {}
 
