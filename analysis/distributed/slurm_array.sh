@@ -15,12 +15,27 @@ case $parts in '' | *[!0-9]* | 0*) echo "PARTS is \"$parts\"; give a number from
 shoal=${SHOAL:-shoal}
 folder=$(pwd)
 mkdir -p "$out.parts"
+logs=${out//%/%%}.parts  # sbatch puts numbers for % and a letter
 
-array=$(sbatch --parsable --array="1-$parts" --job-name=shoal --chdir="$folder" \
-  --output="$out.parts/%a.log" "$@" --wrap="
-  \"$shoal\" sweep \"$study\" --shard \"\$SLURM_ARRAY_TASK_ID/$parts\" \
-    --jobs \"\${SLURM_CPUS_PER_TASK:-1}\" --out \"$out.parts/\$SLURM_ARRAY_TASK_ID\"")
-merge=$(sbatch --parsable --dependency="afterok:$array" --job-name=shoal-merge --chdir="$folder" \
-  --output="$out.parts/merge.log" "$@" --wrap="
-  \"$shoal\" merge \"$out\" \$(seq -f \"$out.parts/%g\" 1 $parts) && \"$shoal\" report \"$out\"")
+# A job: these words, quoted once and for all, are $1, $2 ... of the script on standard input.
+job() {
+  printf '#!/usr/bin/env bash\nset -euo pipefail\nset --'
+  printf ' %q' "$@"
+  printf '\n'
+  cat
+}
+
+array=$(job "$shoal" "$study" "$parts" "$out.parts" <<'JOB' |
+"$1" sweep "$2" --shard "$SLURM_ARRAY_TASK_ID/$3" --jobs "${SLURM_CPUS_PER_TASK:-1}" \
+  --out "$4/$SLURM_ARRAY_TASK_ID"
+JOB
+  sbatch --parsable --array="1-$parts" --job-name=shoal --chdir="$folder" \
+    --output="$logs/%a.log" "$@")
+merge=$(job "$shoal" "$out" "$parts" <<'JOB' |
+for ((i = 1; i <= $3; ++i)); do folders+=("$2.parts/$i"); done
+"$1" merge "$2" "${folders[@]}"
+"$1" report "$2"
+JOB
+  sbatch --parsable --dependency="afterok:$array" --job-name=shoal-merge --chdir="$folder" \
+    --output="$logs/merge.log" "$@")
 echo "submitted: array $array of $parts parts, then merge $merge into $out"
