@@ -1,30 +1,13 @@
-// The researcher's example of README.md: a cost of one's own is one file with one enrolment line.
+// The researcher's example of README.md, examples/spring.cpp: a cost of one's own is one file.
 
 #include <gtest/gtest.h>
 
 #include <vector>
 
 #include "shoal/formations/behaviour.hpp"
-#include "shoal/formations/potential.hpp"
 
 namespace shoal::formations {
 namespace {
-
-/// A spring between two vehicles: (r - s)^2 / 2, in square metres.
-struct Spring {
-  double stiffness = 1.0;
-
-  template <class T>
-  T operator()(const T& r, double s) const {  // r, s in metres
-    return 0.5 * stiffness * (r - s) * (r - s);
-  }
-
-  static void declare(Options<Spring>& o) {
-    o.number("stiffness", &Spring::stiffness, "", above(0), "pull per metre of stretch");
-  }
-};
-
-const EnrolPotential<Spring> enrolled{"spring", "a spring"};
 
 TEST(OwnPotential, IsTakenByABehaviourOnceItIsEnrolled) {
   Setting options;
