@@ -3,7 +3,10 @@
 #include <algorithm>
 
 #include "commands.hpp"
+#include "print_options.hpp"
 #include "shoal/analysis/measure.hpp"
+#include "shoal/analysis/study/file_parts.hpp"
+#include "shoal/analysis/study/study.hpp"
 #include "shoal/core/option_place.hpp"
 #include "shoal/core/text.hpp"
 #include "shoal/core/whole_file.hpp"
@@ -14,66 +17,6 @@
 
 namespace shoal::program {
 namespace {
-
-std::string value_text(const Setting& value) {
-  Setting table;
-  table.at_or_new("x") = value;
-  const std::string text = to_toml(table);
-  return std::string(trimmed(text.substr(text.find('=') + 1)));
-}
-
-std::string accepted(const Option& option) {
-  const std::string range = option.range_text();
-  if (option.type == "a number" && range.starts_with("any")) return range;
-  if (option.type == "a number" || option.type == "an integer") return option.type + " " + range;
-  return option.type + (option.unit.empty() ? "" : " in " + option.unit);
-}
-
-void print_option(const Option& option, const Setting& fallback, const std::string& key) {
-  fmt::print("{}\n    {}\n    takes {}; default {}\n", key, option.meaning, accepted(option),
-             value_text(fallback));
-}
-
-void print_choice(const Option& option, const Setting& fallback, const std::string& key) {
-  fmt::print("{}.kind\n    {}; default {}; one of\n", key, option.meaning,
-             value_text(*fallback.find("kind")));
-  for (const MemberInfo& member : option.choice->members()) {
-    fmt::print("      {:<26} {}\n", member.name, member.summary);
-  }
-}
-
-/// With the defaults of where it stands: those of its struct may be others.
-void print_schema(const Schema& schema, const Setting& defaults, const std::string& path);
-
-void print_entry(const Option& option, const Setting& fallback, const std::string& key) {
-  if (option.table) {
-    fmt::print("{}: {}\n", key, option.meaning);
-    print_schema(*option.table, fallback, key);
-  } else if (option.choice) {
-    print_choice(option, fallback, key);
-  } else {
-    print_option(option, fallback, key);
-  }
-}
-
-void print_schema(const Schema& schema, const Setting& defaults, const std::string& path) {
-  for (const Option& option : schema.options) {
-    print_entry(option, *defaults.find(option.name), dotted(path, option.name));
-  }
-}
-
-void print_member(const RegistryBase& family, const MemberInfo& member, const std::string& path) {
-  fmt::print("{} ({}): {}\n", member.name, family.family(), member.summary);
-  print_schema(member.schema(), member.schema().defaults, path);
-}
-
-/// Throws InputError at the first unknown part of the key.
-void describe_key(const std::string& key) {
-  const OptionPlace place = locate(schema_of<scenarios::Scenario>(), key);
-  if (place.is_kind) return print_choice(*place.option, *place.fallback, place.key);
-  if (place.member) return print_member(*place.option->choice, *place.member, place.key);
-  print_entry(*place.option, *place.fallback, place.key);
-}
 
 /// Every member of that name, of whatever family. Returns whether there is one.
 bool describe_members(const std::string& name, std::vector<std::string>& known) {
@@ -122,12 +65,55 @@ bool describe_scenario(const std::string& name, std::vector<std::string>& known)
 }
 
 /// As it was written: its comments say where each value comes from.
-bool describe_set(const std::string& name, std::vector<std::string>& known) {
-  const std::vector<std::string> names = scenarios::library_sets();
+template <class FileOf>
+bool describe_file(const std::string& name, const std::vector<std::string>& names, FileOf file_of,
+                   std::vector<std::string>& known) {
   known.insert(known.end(), names.begin(), names.end());
   if (std::ranges::find(names, name) == names.end()) return false;
-  fmt::print("{}", read_whole_file(scenarios::set_file(name)).value());
+  fmt::print("{}", read_whole_file(file_of(name)).value());
   return true;
+}
+
+/// A table of study and claim files, or an option in one.
+bool describe_part(const std::string& name, std::vector<std::string>& known) {
+  const std::string first = name.substr(0, name.find('.'));
+  for (const analysis::FilePart& part : analysis::file_parts()) {
+    known.emplace_back(part.name);
+    if (first != part.name) continue;
+    if (first == name) {
+      fmt::print("{}: {}\n", part.name, part.written);
+      print_schema(part.schema, part.name);
+    } else {
+      Setting defaults;
+      defaults.at_or_new(first) = part.schema.defaults;
+      const Option table{.name = first, .meaning = part.written, .table = &part.schema};
+      print_key(Schema{{table}, defaults, part.written}, name);
+    }
+    return true;
+  }
+  return false;
+}
+
+/// A family, or FAMILY.MEMBER and what follows: the key that chooses it is another way to say it.
+bool describe_family(const std::string& name, std::vector<std::string>& known) {
+  const std::string first = name.substr(0, name.find('.'));
+  for (const RegistryBase* family : families()) {
+    known.push_back(family->family());
+    if (first != family->family()) continue;
+    const Schema& scenario = schema_of<scenarios::Scenario>();
+    const std::string key = key_of(*family, scenario);
+    if (first == name) {
+      list(first);
+      if (!key.empty()) fmt::print("chosen by {}.kind\n", key);
+    } else if (!key.empty()) {
+      print_key(scenario, key + name.substr(first.size()));
+    } else {
+      const Option choice{.name = first, .meaning = family->meaning(), .choice = family};
+      print_key(Schema{{choice}, {}, "a scenario"}, name);
+    }
+    return true;
+  }
+  return false;
 }
 
 bool describe_inherits(const std::string& name, std::vector<std::string>& known) {
@@ -149,19 +135,22 @@ bool describe_inherits(const std::string& name, std::vector<std::string>& known)
 void describe(const std::string& name) {
   const Schema& root = schema_of<scenarios::Scenario>();
   const std::string first = name.substr(0, name.find('.'));
-  bool found = root.find(first) != nullptr;
-  if (found) describe_key(name);
   std::vector<std::string> known = root.names();
+  bool found = root.find(first) != nullptr;
+  if (found) print_key(root, name);
   found |= describe_members(name, known);
   found |= describe_quantities(name, known);
+  found = found || describe_part(name, known);
+  found = found || describe_family(name, known);
   found = found || describe_scenario(name, known);
-  found = found || describe_set(name, known);
+  found = found || describe_file(name, scenarios::library_sets(), scenarios::set_file, known);
+  found = found || describe_file(name, analysis::library_studies(), analysis::find_study, known);
   found = found || describe_inherits(name, known);
   if (found) return;
   // What begins like a key is one that is wrong, unless members are called like that.
   const bool begins_a_member = std::ranges::any_of(
       known, [&](const std::string& other) { return other.starts_with(first + "."); });
-  if (first != name && !begins_a_member) return describe_key(name);
+  if (first != name && !begins_a_member) return print_key(root, name);
   const std::string close = suggestion(name, known);
   throw InputError("nothing is called \"" + name + '"' +
                    (close.starts_with("; did") ? close : "; shoal list shows all names"));

@@ -1,15 +1,20 @@
 #include <fmt/core.h>
 
 #include <CLI/CLI.hpp>
+#include <cerrno>
 #include <csignal>
 #include <exception>
+#include <filesystem>
 #include <new>
+#include <system_error>
 #include <thread>
 
 #include "commands.hpp"
 #include "shoal/analysis/evaluation.hpp"
 #include "shoal/analysis/study/trial_outcome.hpp"
 #include "shoal/core/error.hpp"
+#include "shoal/core/message.hpp"
+#include "shoal/core/text.hpp"
 #include "shoal/solvers/solver.hpp"
 
 namespace {
@@ -28,23 +33,46 @@ std::string one_line(const std::string& message) {
 }
 
 int complained(const std::string& message, int status) {
-  fmt::print(stderr, "shoal: {}\n", one_line(message));
+  shoal::write_message("shoal: " + one_line(message) + "\n");
   return status;
 }
+
+// As of a program that SIGPIPE ends: nothing is wrong when `head` has read enough.
+constexpr int reader_has_gone = 128 + SIGPIPE;
 
 // Exit status: 0 done, 1 a run failed, 2 bad input or usage.
 int guarded(const std::function<void()>& command) {
   try {
     command();
-    if (std::fflush(stdout) != 0) throw shoal::SystemError("cannot write to the terminal");
+    if (std::fflush(stdout) != 0) {
+      throw std::system_error(errno, std::generic_category(), "cannot write the output");
+    }
     return 0;
   } catch (const shoal::InputError& error) {
     return complained(error.what(), 2);
+  } catch (const std::filesystem::filesystem_error& error) {
+    return complained(error.path1().string() + ": " + error.code().message() +
+                          "; name another place, or change its permissions",
+                      2);
+  } catch (const std::system_error& error) {
+    return error.code() == std::errc::broken_pipe ? reader_has_gone : complained(error.what(), 1);
   } catch (const std::bad_alloc&) {
     return complained("there is not enough memory; use fewer vehicles, or record less often", 1);
   } catch (const std::exception& error) {
     return complained(error.what(), 1);
   }
+}
+
+/// CLI11 only says that some command is required. Throws CLI::ParseError.
+void require_command(const CLI::App& app, const std::string& word) {
+  if (word.empty() || word.starts_with('-')) return;
+  std::vector<std::string> known;
+  for (const CLI::App* each : app.get_subcommands({})) {
+    if (each->get_name() == word) return;
+    if (!each->get_group().empty()) known.push_back(each->get_name());
+  }
+  throw CLI::ParseError("there is no command \"" + word + '"' + shoal::suggestion(word, known),
+                        CLI::ExitCodes::ExtrasError);
 }
 
 }  // namespace
@@ -61,9 +89,6 @@ int main(int argc, char** argv) {
   app.require_subcommand(1);
   std::function<void()> command;
 
-  const auto names_a_folder = [](const std::string& folder) {
-    return std::string(folder.empty() ? "names no folder" : "");
-  };
   shoal::program::RunArguments run;
   CLI::App* run_command = app.add_subcommand("run", "Run one trial of a scenario");
   run_command->add_option("scenario", run.scenario, "a scenario file, or its name in the library")
@@ -73,8 +98,7 @@ int main(int argc, char** argv) {
       ->expected(1)
       ->take_all();
   run_command->add_option("--seed", run.seed, "seed of all random numbers (trial.seed)");
-  run_command->add_option("--out", run.out, "folder for the results; default: out/SCENARIO")
-      ->check(names_a_folder);
+  run_command->add_option("--out", run.out, "folder for the results; default: out/SCENARIO");
   run_command
       ->add_option("--threads", run.threads,
                    "threads for large swarms; the numbers do not depend on it")
@@ -93,8 +117,7 @@ int main(int argc, char** argv) {
   CLI::Option* jobs = sweep_command->add_option(
       "--jobs", sweep.jobs, "trials at a time; the numbers do not depend on it");
   jobs->check(CLI::Range(1, 1024))->capture_default_str();
-  sweep_command->add_option("--out", sweep.out, "folder of the trials; default: out/STUDY")
-      ->check(names_a_folder);
+  sweep_command->add_option("--out", sweep.out, "folder of the trials; default: out/STUDY");
   sweep_command->add_option("--shard", sweep.shard,
                             "I/N: only the I-th of N parts; see shoal merge");
   sweep_command->add_option("--replications", sweep.replications, "instead of those of the study")
@@ -135,9 +158,8 @@ int main(int argc, char** argv) {
   CLI::App* export_command = app.add_subcommand(
       "export", "Write the trials of a study as trials.csv and study.nc, for other programs");
   export_command->add_option("folder", folder, "what shoal sweep wrote")->required();
-  export_command
-      ->add_option("--out", export_to, "folder of the two files; default: that of the study")
-      ->check(names_a_folder);
+  export_command->add_option("--out", export_to,
+                             "folder of the two files; default: that of the study");
   export_command->callback(
       [&] { command = [&] { shoal::program::export_study(folder, export_to); }; });
 
@@ -178,6 +200,12 @@ int main(int argc, char** argv) {
   corpus_command->add_option("--seed", corpus.seed, "seed of the trials")->capture_default_str();
   corpus_command->callback([&] { command = [&] { shoal::program::corpus(corpus); }; });
 
+  const CLI::Validator at_least_0(
+      [](const std::string& value) {
+        const auto number = shoal::parsed_number(value);
+        return std::string(number && *number >= 0.0 ? "" : value + " is no number of at least 0");
+      },
+      "");
   shoal::program::SolveArguments solve;
   CLI::App* solve_command =
       app.add_subcommand("solve", "Compare solvers side by side on recorded problems");
@@ -197,7 +225,7 @@ int main(int argc, char** argv) {
   solve_command
       ->add_option("--same-within", solve.same_within_m,
                    "metres within which two minima are the same")
-      ->check(CLI::NonNegativeNumber)
+      ->check(at_least_0)
       ->capture_default_str();
   solve_command->add_option("--format", solve.format, "text, csv, markdown, latex or html")
       ->capture_default_str();
@@ -226,7 +254,17 @@ int main(int argc, char** argv) {
   eval_command->footer(shoal::analysis::evaluations_text);
   eval_command->callback([&] { command = [&] { shoal::program::eval(model, inputs); }; });
 
+  // An unset variable in a job's script must not stand for a default.
+  const CLI::Validator given(
+      [](const std::string& value) { return std::string(value.empty() ? "is empty" : ""); }, "");
+  for (CLI::App* subcommand : app.get_subcommands({})) {
+    for (CLI::Option* option : subcommand->get_options()) {
+      if (option->get_items_expected_max() > 0) option->transform(given);  // before all checks
+    }
+  }
+
   try {
+    if (argc > 1) require_command(app, argv[1]);
     app.parse(argc, argv);
   } catch (const CLI::Success& success) {
     return app.exit(success);

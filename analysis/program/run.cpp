@@ -3,6 +3,7 @@
 #include <filesystem>
 
 #include "commands.hpp"
+#include "named_files.hpp"
 #include "shoal/analysis/problem_recorder.hpp"
 #include "shoal/analysis/report/run_report.hpp"
 #include "shoal/analysis/trial.hpp"
@@ -43,7 +44,7 @@ void print_summary(const analysis::Trial& trial, const std::string& name) {
 }  // namespace
 
 void run(const RunArguments& arguments) {
-  const std::filesystem::path file = scenarios::find_scenario(arguments.scenario);
+  const std::filesystem::path file = scenario_file(arguments.scenario);
   Setting root = scenarios::read_toml(file);
   for (const std::string& set : arguments.sets) scenarios::apply_set(root, set);
   if (!arguments.seed.empty()) scenarios::apply_set(root, "trial.seed=" + arguments.seed);

@@ -5,9 +5,11 @@
 #include <filesystem>
 
 #include "commands.hpp"
+#include "named_files.hpp"
 #include "python.hpp"
 #include "shoal/analysis/study/study_tables.hpp"
 #include "shoal/analysis/study/sweep.hpp"
+#include "shoal/core/message.hpp"
 #include "shoal/core/text.hpp"
 #include "shoal/scenarios/toml_file.hpp"
 
@@ -40,12 +42,11 @@ class ProgressLine {
       line += fmt::format(", {:.3g} a second, {} left", rate,
                           duration_text(static_cast<double>(to_run - p.done) / rate));
     }
-    fmt::print(stderr, "{}{}{}", terminal_ ? "\r" : "", line, terminal_ ? "\033[K" : "\n");
-    std::fflush(stderr);
+    write_message(terminal_ ? "\r" + line + "\033[K" : line + "\n");
   }
 
   void end() const {
-    if (terminal_) fmt::print(stderr, "\r\033[K");
+    if (terminal_) write_message("\r\033[K");
   }
 
  private:
@@ -71,7 +72,7 @@ void read_shard(const std::string& text, analysis::SweepSettings& settings) {
 }
 
 analysis::StudyPlan plan_of(const SweepArguments& arguments) {
-  Setting root = scenarios::read_toml(analysis::find_study(arguments.study));
+  Setting root = scenarios::read_toml(study_file(arguments.study));
   if (arguments.replications > 0) analysis::set_replications(root, arguments.replications);
   analysis::StudyPlan plan(analysis::read_study(root));
   analysis::require_answerable(plan);

@@ -42,6 +42,11 @@ class Desk(unittest.TestCase):
         return subprocess.run([SHOAL, *map(str, arguments)], cwd=self.desk, capture_output=True,
                               text=True, timeout=60, check=False, **settings)
 
+    def sh(self, line):
+        """A line of a shell, in which $SHOAL is the program."""
+        return subprocess.run(["bash", "-c", line], cwd=self.desk, capture_output=True, text=True,
+                              timeout=60, check=False, env={**os.environ, "SHOAL": SHOAL})
+
     def run_trial(self, *arguments, out="out"):
         done = self.shoal("run", *arguments, "--out", out)
         self.assertEqual((done.returncode, done.stderr), (0, ""))

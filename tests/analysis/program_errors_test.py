@@ -4,6 +4,7 @@
 """
 
 import os
+import re
 import resource
 import subprocess
 
@@ -38,7 +39,7 @@ BAD_SCENARIOS = [
      ["s.toml:5: ", 'behaviour has no option "rigid"', 'did you mean "rigid_registration"?']),
     ("wrong options of another kind",
      SMALL + "[behaviour.assignment_registration]\ndelta_theta_deg = 0\n", {},
-     ["s.toml:6: ", "delta_theta_deg is 0; it takes above 0 and at most 180 deg"]),
+     ["s.toml:6: ", "delta_theta_deg is 0; it takes from 0.01 to 180 deg"]),
     ("text for a number", SMALL + '[ping]\nperiod_s = "30"\n', {},
      ["s.toml:6: ", 'ping.period_s is a string ("30"); it takes a number in s']),
     ("a number for a flag", SMALL + "[ping]\nidentified = 1\n", {},
@@ -170,10 +171,16 @@ BAD_SCENARIOS = [
 # Arguments behind `shoal`, and what the complaint must say.
 BAD_ARGUMENTS = [
     ([], ["subcommand is required", "--help"]),
-    (["frobnicate"], ["--help"]),
+    (["frobnicate"], ['there is no command "frobnicate"; known are run, sweep, ', "--help"]),
+    (["swep", "delta_theta"], ['there is no command "swep"; did you mean "sweep"?']),
+    (["run", "delta_theta"], ['"delta_theta" is a study; shoal sweep delta_theta runs its trials']),
+    (["run", "a_study.toml"], ["a_study.toml: this is a study; shoal sweep runs its trials"]),
+    (["sweep", "redsea_square"],
+     ['"redsea_square" is a scenario; shoal run redsea_square runs it']),
+    (["sweep", "ok.toml"], ["ok.toml: this is a scenario; shoal run runs it"]),
     (["run"], ["scenario is required"]),
     (["run", "redsea_sqare"], ['no file "redsea_sqare"', 'did you mean "redsea_square"?']),
-    (["run", ""], ['no file ""']),
+    (["run", ""], ["scenario: is empty"]),
     (["run", "."], ["directory"]),
     (["run", "ok.toml", "--frobnicate"], ["--frobnicate"]),
     (["run", "ok.toml", "--set", "trial.seed"], ["--set trial.seed: ", "KEY=VALUE"]),
@@ -209,6 +216,9 @@ BAD_ARGUMENTS = [
     (["describe", "nlopt.lbgfs"], ['nothing is called "nlopt.lbgfs"; did you mean "nlopt.lbfgs"?']),
     (["describe", "nlopt"],
      ['nothing is called "nlopt"; did you mean one of nlopt.bobyqa, ', " and nlopt.var2?"]),
+    (["describe", "potential.expresion"], ['did you mean "expression"?']),
+    (["describe", "table.colums"], ['table has no option "colums"; did you mean "columns"?']),
+    (["describe", "delta_thet"], ['did you mean "delta_theta"?']),
     (["describe", "nlopt_lbfgs"], ['did you mean "nlopt.lbfgs"?']),
     (["describe", "behaviour.attraction_repulsion.solver.nlopt"],
      ['behaviour.attraction_repulsion.solver: there is no solver "nlopt"; did you mean one of ']),
@@ -232,7 +242,8 @@ BAD_ARGUMENTS = [
      ['solver.newton has no option "max_evaluation"; did you mean "max_evaluations"?']),
     (["solve", "ok.toml", "--solvers", "newton", "--reference", "grid"],
      ['the reference "grid" is not among the solvers']),
-    (["solve", "ok.toml", "--solvers", "newton", "--same-within", "-1"], ["--same-within"]),
+    (["solve", "ok.toml", "--solvers", "newton", "--same-within", "-1"],
+     ["--same-within: -1 is no number of at least 0"]),
     (["corpus"], ["required"]),
     (["corpus", "c.jsonl", "--keep", "0"], ["--keep"]),
     (["corpus", "c.jsonl", "--duration", "-5"], ["trial.duration_s is -5"]),
@@ -248,6 +259,23 @@ BAD_ARGUMENTS = [
 
 
 class BadInput(Desk):
+    def test_an_empty_value_stands_for_no_default(self):
+        for command in (["run", "ok.toml"], ["sweep", "s.toml"], ["corpus", "c.jsonl"],
+                        ["solve", "c.jsonl", "--solvers", "newton"], ["export", "out"]):
+            for option in self.options_of(command[0]):
+                with self.subTest(f"{command[0]} {option}"):
+                    self.assert_complains(self.shoal(*command, option, ""), 2,
+                                          [option, "is empty"])
+            self.assert_complains(self.shoal(command[0], ""), 2, ["is empty"])
+        self.assertEqual(self.files(), {"ok.toml"})
+
+    def options_of(self, command):
+        """The options that take a value."""
+        text = self.shoal(command, "--help").stdout
+        options = re.findall(r"^  (?:-\w,)?(--[a-z-]+) [A-Z{]", text, re.MULTILINE)
+        self.assertGreater(len(options), 0, text)
+        return options
+
     def test_a_bad_scenario_is_refused_in_one_line(self):
         for title, scenario, files, parts in BAD_SCENARIOS:
             with self.subTest(title):
@@ -263,6 +291,7 @@ class BadInput(Desk):
         self.write("notes.txt", "")
         self.write("bad.csv", "name,x_m,y_m\na,0,0\na,1,1\n")
         self.write("bad.nc", "no netCDF")
+        self.write("a_study.toml", 'title = "mine"\nscenario = "ok.toml"\n')
         before = self.files()
         for arguments, parts in BAD_ARGUMENTS:
             with self.subTest(" ".join(arguments)):
@@ -310,6 +339,42 @@ class BadSurroundings(Desk):
     def test_a_folder_where_a_result_should_be(self):
         self.write("out/summary.json/mine", "")
         self.assert_complains(self.shoal("run", "ok.toml", "--out", "out"), 1, ["summary.json"])
+
+    def test_messages_that_cannot_be_written_end_no_work(self):
+        for target in ["2>/dev/full", "2>&-"]:
+            done = self.sh(f'"$SHOAL" run missing.toml {target}')
+            self.assertEqual(done.returncode, 2, target)
+            done = self.sh(f'"$SHOAL" run ok.toml --out out {target}')
+            self.assertEqual(done.returncode, 0, target)
+
+    def test_a_reader_that_has_read_enough_is_no_error(self):
+        done = self.sh('"$SHOAL" list | true')
+        self.assertEqual((done.returncode, done.stderr), (0, ""))
+
+    def test_little_memory_is_no_reason_to_hang(self):
+        done = self.sh('ulimit -v 1000000; "$SHOAL" --version')
+        self.assertEqual((done.returncode, done.stderr), (0, ""))
+
+    def test_names_that_no_folder_can_have(self):
+        for out in ["x" * 300, "loop/out"]:
+            if out.startswith("loop"):
+                os.symlink("loop", self.desk / "loop")
+            done = self.shoal("run", "ok.toml", "--out", out)
+            self.assertIn(done.returncode, (1, 2))
+            self.assert_complains(done, done.returncode, [out])
+            self.assertNotIn("filesystem error", done.stderr)
+            self.assertNotIn("what()", done.stderr)
+
+    def test_pipes_are_written_to_and_links_stay(self):
+        os.mkfifo(self.desk / "pipe")
+        done = self.sh('cat pipe >got & "$SHOAL" corpus --duration 60 --keep 1 pipe; wait')
+        self.assertEqual((done.returncode, done.stderr), (0, ""))
+        self.assertTrue((self.desk / "pipe").is_fifo())
+        self.write("target.jsonl", "old")
+        os.symlink("target.jsonl", self.desk / "link.jsonl")
+        self.shoal("corpus", "--duration", "60", "--keep", "1", "link.jsonl")
+        self.assertTrue((self.desk / "link.jsonl").is_symlink())
+        self.assertEqual((self.desk / "target.jsonl").read_text(), (self.desk / "got").read_text())
 
     def test_a_terminal_that_takes_nothing(self):
         with open("/dev/full", "w", encoding="utf-8") as full:

@@ -75,6 +75,31 @@ class Help(Desk):
         self.assertIn("plan.kind\n", text)
         self.assertIn("plan (start)", text)
 
+    def test_describe_a_family_and_its_members_and_options(self):
+        text = self.say("describe", "potential")
+        for part in ["potential: ", "  lennard_jones ",
+                     "chosen by behaviour.attraction_repulsion.potential.kind\n"]:
+            self.assertIn(part, text)
+        key = "behaviour.attraction_repulsion.potential.expression"
+        for end in ["", ".formula"]:
+            self.assertEqual(self.say("describe", "potential.expression" + end),
+                             self.say("describe", key + end))
+        self.assertIn("claim_test.order", self.say("describe", "claim_test.order"))
+        self.assertIn("  grid ", self.say("describe", "design"))
+
+    def test_describe_a_study_and_what_stands_in_such_files(self):
+        self.assertIn("[[group.factor]]", self.say("describe", "delta_theta"))
+        self.assertIn("table.statistic\n", self.say("describe", "table"))
+        option = self.say("describe", "comparison.resolve_percent")
+        self.assertTrue(option.startswith("comparison.resolve_percent\n"), option)
+        for name, part in [("study", "study.replications\n"), ("group", "group.design.kind\n"),
+                           ("factor", "factor.values\n"), ("level", "level.label\n"),
+                           ("claims", "claims.correction\n"), ("claim", "claim.test.kind\n"),
+                           ("statement", "statement.says\n"), ("cause", "cause.study\n"),
+                           ("sensitivity", "sensitivity.convergence\n"),
+                           ("attribution", "attribution.minus\n")]:
+            self.assertIn(part, self.say("describe", name))
+
     def test_list_measures_shows_what_they_yield(self):
         text = self.say("list", "measures")
         for line in ["  energy ", "      energy_rate_w ", "      thrust_time_ratio_mean "]:
