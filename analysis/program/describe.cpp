@@ -80,7 +80,11 @@ bool describe_part(const std::string& name, std::vector<std::string>& known) {
   for (const analysis::FilePart& part : analysis::file_parts()) {
     known.emplace_back(part.name);
     if (first != part.name) continue;
-    if (first == name) {
+    const std::string rest = first == name ? "" : name.substr(first.size() + 1);
+    const Option* option = part.schema.find(rest.substr(0, rest.find('.')));
+    // The entries of a list have a part of their own.
+    if (option && option->type == "a list of tables" && describe_part(rest, known)) return true;
+    if (rest.empty()) {
       fmt::print("{}: {}\n", part.name, part.written);
       print_schema(part.schema, part.name);
     } else {

@@ -19,6 +19,7 @@ Setting plain(auto value) {
 /// What it is instead, if it is no real number.
 std::optional<std::string> no_real_kind(py::handle value) {
   if (value.is_none()) return "None";
+  if (py::isinstance<py::str>(value)) return "text";
   // numpy's complex numbers would convert, with a warning only.
   const bool complex_scalar =
       py::hasattr(value, "dtype") && py::str(value.attr("dtype").attr("kind")).equal(py::str("c"));

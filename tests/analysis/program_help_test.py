@@ -45,7 +45,7 @@ class Help(Desk):
         key = "behaviour.assignment_registration.delta_theta_deg"
         text = self.say("describe", key)
         self.assertTrue(text.startswith(key + "\n"))
-        self.assertIn("takes a number above 0 and at most 180 deg; default 45.0", text)
+        self.assertIn("takes a number from 0.01 to 180 deg; default 45.0", text)
 
     def test_describe_a_member_whose_name_has_a_dot(self):
         path = "behaviour.attraction_repulsion.solver.nlopt.lbfgs"
@@ -92,6 +92,8 @@ class Help(Desk):
         self.assertIn("table.statistic\n", self.say("describe", "table"))
         option = self.say("describe", "comparison.resolve_percent")
         self.assertTrue(option.startswith("comparison.resolve_percent\n"), option)
+        self.assertEqual(self.say("describe", "study.group.factor.values"),
+                         self.say("describe", "factor.values"))
         for name, part in [("study", "study.replications\n"), ("group", "group.design.kind\n"),
                            ("factor", "factor.values\n"), ("level", "level.label\n"),
                            ("claims", "claims.correction\n"), ("claim", "claim.test.kind\n"),

@@ -17,6 +17,7 @@ loses the trials it was running, which others then run; one that joins late gets
 from __future__ import annotations
 
 import argparse
+import contextlib
 import logging
 import os
 import pathlib
@@ -101,8 +102,10 @@ def run(open_sweep: _shoal.OpenSweep, client: Client, batch: int,
             if progress is not None:
                 progress(open_sweep.progress())
     finally:
-        for future in list(done.futures):
-            future.cancel()
+        # A scheduler that is lost knows of no task any more, and does not answer.
+        with contextlib.suppress(OSError):
+            for future in list(done.futures):
+                future.cancel()
 
 
 def _without_package(client: Client, error: ModuleNotFoundError) -> str:
