@@ -27,7 +27,7 @@ Trial run_trial(const scenarios::Scenario& scenario, const TrialSettings& settin
       std::make_unique<scenarios::World>(scenario, settings.threads, settings.behaviour_hook);
 
   std::vector<std::unique_ptr<Measure>> measures = all_measures();
-  std::vector<scenarios::Observer*> observers;
+  std::vector<scenarios::Observer*> observers = settings.observers;
   for (const auto& measure : measures) {
     measure->begin(*trial.world);
     if (measure->every_s() > 0.0) observers.push_back(measure.get());

@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "shoal/analysis/measure.hpp"
 #include "shoal/scenarios/scenario.hpp"
@@ -24,6 +25,7 @@ struct TrialSettings {
   int threads = 1;
   bool record = true;  ///< at trial.record_every_s, if that is above 0
   scenarios::BehaviourHook behaviour_hook = {};
+  std::vector<scenarios::Observer*> observers = {};  ///< besides measures and record
 };
 
 /// Runs a scenario. The measures are the same for any number of threads, with or without recording.

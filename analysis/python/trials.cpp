@@ -7,6 +7,7 @@
 #include "shoal/analysis/trial.hpp"
 #include "shoal/scenarios/netcdf_guard.hpp"
 #include "shoal/scenarios/toml_file.hpp"
+#include "watch.hpp"
 
 namespace shoal::python {
 namespace {
@@ -25,12 +26,14 @@ scenarios::Scenario read(py::object scenario, const py::dict& changes) {
 
 /// Runs without the interpreter: Python's other threads go on. Returns the text of summary.json.
 std::string run(const py::object& scenario, const py::dict& changes, const std::string& name,
-                const std::string& folder, int threads, bool record, bool report) {
+                const std::string& folder, int threads, bool record, bool report,
+                py::object progress) {
   if (threads < 1) throw InputError("threads is " + std::to_string(threads) + "; give at least 1");
   const scenarios::Scenario read_in = read(scenario, changes);
+  const std::unique_ptr<scenarios::Observer> watching = watch(read_in, std::move(progress));
   const py::gil_scoped_release free;
-  const analysis::Trial trial =
-      analysis::run_trial(read_in, {.threads = threads, .record = record, .behaviour_hook = {}});
+  const analysis::Trial trial = analysis::run_trial(
+      read_in, {.threads = threads, .record = record, .observers = {watching.get()}});
   analysis::write_trial(trial, name, folder);
   if (report) analysis::write_run_report(folder);
   return analysis::summary_json(trial, name);
@@ -81,7 +84,7 @@ void add_trials(py::module_& module) {
       .def("__enter__", &NetcdfLock::enter)
       .def("__exit__", &NetcdfLock::exit);
   module.def("run", &run, py::arg("scenario"), py::arg("set"), py::arg("name"), py::arg("folder"),
-             py::arg("threads"), py::arg("record"), py::arg("report"));
+             py::arg("threads"), py::arg("record"), py::arg("report"), py::arg("progress"));
   module.def(
       "scenario",
       [](const py::object& scenario, const py::dict& changes) {

@@ -7,6 +7,7 @@ import concurrent.futures
 import json
 import math
 import pathlib
+import signal
 import subprocess
 import sys
 import tempfile
@@ -26,6 +27,17 @@ LAW = "behaviour.attraction_repulsion.potential"
 
 def thesis(r, s):
     return s**3 / (2 * r**2) + r - 3 * s
+
+
+class Until:
+    """Progress that ends a run after so many seconds."""
+
+    def __init__(self, seconds):
+        self.seconds = seconds
+
+    def __call__(self, now):
+        if now["elapsed_s"] > self.seconds:
+            raise StopIteration
 
 
 class Trials(Desk):
@@ -118,6 +130,31 @@ class Trials(Desk):
         for run in runs:
             self.assertEqual(run.measures, alone.measures)
             self.assertTrue(run.dataset.identical(alone.dataset))
+
+    def test_a_long_run_is_interrupted_and_says_how_far_it_is(self):
+        self.write("long.py", """
+import shoal
+def far(now):
+    assert now["duration_s"] == 1e9 and 0 < now["time_s"] < 1e9 and now["elapsed_s"] > 0
+    print("on its way", flush=True)
+shoal.run("construction_square", {"trial.duration_s": 1e9, "trial.record_every_s": 0}, progress=far)
+""")
+        with subprocess.Popen([sys.executable, "long.py"], cwd=self.desk, text=True,
+                              stdout=subprocess.PIPE, stderr=subprocess.PIPE) as running:
+            try:
+                self.assertEqual(running.stdout.readline(), "on its way\n")
+                running.send_signal(signal.SIGINT)
+                _, complaint = running.communicate(timeout=120)
+            finally:
+                running.kill()
+        self.assertIn("KeyboardInterrupt", complaint)
+
+    def test_a_cost_of_single_numbers_hints_at_arrays_in_a_long_run(self):
+        law = shoal.potential(lambda r, s: (r - s)**2 / s)
+        with self.assertWarnsRegex(RuntimeWarning, "batch=True"), self.assertRaises(StopIteration):
+            shoal.run("construction_hexagonal",
+                      {"behaviour.kind": "attraction_repulsion", "trial.duration_s": 1e9,
+                       "behaviour.attraction_repulsion.potential": law}, progress=Until(8))
 
     def test_values_that_no_option_takes(self):
         deep = 1

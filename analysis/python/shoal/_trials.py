@@ -7,7 +7,7 @@ import operator
 import os
 import pathlib
 import tempfile
-from typing import TYPE_CHECKING, Any, Mapping, NamedTuple
+from typing import TYPE_CHECKING, Any, Callable, Mapping, NamedTuple
 
 from . import _shoal
 
@@ -56,14 +56,16 @@ def current(scenario: str | os.PathLike[str] | Mapping[str, Any], time_s: float,
 def run(scenario: str | os.PathLike[str] | Mapping[str, Any],
         set: Mapping[str, Any] | None = None, seed: int | None = None, *, threads: int = 1,
         record: bool = True, out: str | os.PathLike[str] | None = None,
-        report: bool = False) -> Run:
+        report: bool = False,
+        progress: Callable[[dict[str, float]], None] | None = None) -> Run:
     """Runs one trial.
 
     scenario: a name of the library, a file, or a dict. set: changes by dotted keys, over it. threads:
     for large swarms; the numbers do not depend on it. out: a folder for what `shoal run` writes
-    (scenario.toml, run.nc, summary.json), and report.html if `report` is set.
+    (scenario.toml, run.nc, summary.json), and report.html if `report` is set. progress: called about
+    twice a second with a dict of time_s (of the mission), duration_s and elapsed_s (of the clock).
 
-    Other threads of Python go on meanwhile. Raises InputError, SystemError, and what a cost of one's
+    Other threads of Python go on meanwhile, and Ctrl-C ends the run. Raises InputError, SystemError, and what a cost of one's
     own raises.
     """
     changes = dict(set or {})
@@ -72,7 +74,7 @@ def run(scenario: str | os.PathLike[str] | Mapping[str, Any],
     with tempfile.TemporaryDirectory(prefix="shoal-") as temporary:
         folder = pathlib.Path(out if out is not None else temporary)
         summary = _shoal.run(plain(scenario), changes, name_of(scenario, "scenario"), str(folder),
-                             threads, record, report)
+                             threads, record, report, progress)
         return Run(_dataset(folder / "run.nc"), json.loads(summary)["metrics"])
 
 

@@ -1,0 +1,85 @@
+#include "watch.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+
+namespace shoal::python {
+namespace {
+
+/// About 5 s of the mission, which take less than a second also in a swarm of 100,000.
+double interval_s(double tick_s) {
+  return tick_s * std::max(1.0, std::floor(5.0 / tick_s));
+}
+
+/// A Python function of numbers, not of arrays, somewhere among the options that are chosen.
+bool has_scalar_function(const Setting& setting) {
+  if (!setting.is_table()) return false;
+  const Setting* kind = setting.find("kind");
+  const auto* name = kind ? std::get_if<std::string>(&kind->value) : nullptr;
+  if (name && *name == "python") {
+    const Setting* batch = setting.find_path("python.batch");
+    return !batch || !std::get<bool>(batch->value);
+  }
+  return std::ranges::any_of(setting.table(), [&](const auto& entry) {
+    const bool chosen = !name || !entry.second.is_table() || entry.first == *name;
+    return chosen && has_scalar_function(entry.second);
+  });
+}
+
+class Watch final : public scenarios::Observer {
+ public:
+  Watch(const scenarios::Scenario& scenario, py::object progress)
+      : progress_(std::move(progress)),
+        every_s_(interval_s(scenario.trial.tick_s)),
+        duration_s_(scenario.trial.duration_s),
+        hint_due_(has_scalar_function(scenarios::resolved_scenario(scenario))) {}
+
+  double every_s() const override { return every_s_; }
+
+  void observe(const scenarios::World& world) override {
+    constexpr std::chrono::milliseconds pause(500);
+    const Clock::time_point now = Clock::now();
+    if (now - last_ < pause) return;
+    last_ = now;
+    const py::gil_scoped_acquire held;
+    if (PyErr_CheckSignals() != 0) throw py::error_already_set();
+    if (!progress_.is_none()) report(world.time_s(), now);
+    if (hint_due_) hint(now);
+  }
+
+ private:
+  using Clock = std::chrono::steady_clock;
+
+  void report(double time_s, Clock::time_point now) const {
+    py::dict reached;
+    reached["time_s"] = time_s;
+    reached["duration_s"] = duration_s_;
+    reached["elapsed_s"] = std::chrono::duration<double>(now - began_).count();
+    progress_(reached);
+  }
+
+  void hint(Clock::time_point now) {
+    constexpr std::chrono::seconds patience(5);
+    if (now - began_ < patience) return;
+    hint_due_ = false;
+    const char* text =
+        "this run calls a Python function for each number; written for arrays, with "
+        "shoal.potential(law, batch=True), it runs some hundred times faster";
+    if (PyErr_WarnEx(PyExc_RuntimeWarning, text, 1) != 0) throw py::error_already_set();
+  }
+
+  py::object progress_;
+  double every_s_, duration_s_;
+  bool hint_due_;
+  Clock::time_point began_ = Clock::now(), last_ = began_;
+};
+
+}  // namespace
+
+std::unique_ptr<scenarios::Observer> watch(const scenarios::Scenario& scenario,
+                                           py::object progress) {
+  return std::make_unique<Watch>(scenario, std::move(progress));
+}
+
+}  // namespace shoal::python
