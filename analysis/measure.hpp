@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "shoal/core/registry.hpp"
-#include "shoal/scenarios/trial_record.hpp"
+#include "shoal/scenarios/series.hpp"
 #include "shoal/scenarios/world.hpp"
 
 namespace shoal::analysis {

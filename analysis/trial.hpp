@@ -7,6 +7,7 @@
 
 #include "shoal/analysis/measure.hpp"
 #include "shoal/scenarios/scenario.hpp"
+#include "shoal/scenarios/trial_record.hpp"
 
 namespace shoal::analysis {
 
@@ -35,7 +36,7 @@ Trial run_trial(const scenarios::Scenario& scenario, const TrialSettings& settin
 /// The content of summary.json.
 std::string summary_json(const Trial& trial, const std::string& name);
 
-/// Writes scenario.toml (resolved), run.nc (if recorded) and summary.json into a folder, which is
+/// Writes scenario.toml (resolved), run.nc and series.nc (if recorded) and summary.json into a folder, which is
 /// made if need be. Each file appears when it is complete, the summary last. Throws SystemError.
 void write_trial(const Trial& trial, const std::string& name, const std::filesystem::path& folder);
 

@@ -66,17 +66,19 @@ std::string summary_json(const Trial& trial, const std::string& name) {
 void write_trial(const Trial& trial, const std::string& name, const fs::path& folder) {
   require_writable(folder);
   // What stands there of an earlier trial would contradict this one, if this one is cut short.
-  for (const char* earlier : {"summary.json", "run.nc", "report.html"}) {
+  for (const char* earlier : {"summary.json", "run.nc", "series.nc", "report.html"}) {
     std::error_code ignored;
     fs::remove(folder / earlier, ignored);
   }
   write_text(folder / "scenario.toml", to_toml(scenarios::resolved_scenario(trial.scenario)));
   if (trial.record) {
-    trial.record->write(folder / "run.nc", *trial.world, in_cf_units(trial.results.series),
-                        {{"title", "shoal run of " + name},
-                         {"behaviour", trial.scenario.behaviour.kind()},
-                         {"seed", std::to_string(trial.scenario.trial.seed)},
-                         {"source", "shoal " SHOAL_VERSION}});
+    const scenarios::FileAttributes attributes{{"title", "shoal run of " + name},
+                                               {"behaviour", trial.scenario.behaviour.kind()},
+                                               {"seed", std::to_string(trial.scenario.trial.seed)},
+                                               {"source", "shoal " SHOAL_VERSION}};
+    trial.record->write(folder / "run.nc", *trial.world, attributes);
+    scenarios::write_series(folder / "series.nc", in_cf_units(trial.results.series),
+                            trial.scenario.trial.start, attributes);
   }
   write_text(folder / "summary.json", summary_json(trial, name));
 }

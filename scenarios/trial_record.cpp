@@ -4,8 +4,7 @@
 #include <limits>
 
 #include "shoal/core/angles.hpp"
-#include "shoal/scenarios/currents/netcdf_time.hpp"
-#include "shoal/scenarios/netcdf_output.hpp"
+#include "shoal/scenarios/mission_time.hpp"
 
 namespace shoal::scenarios {
 namespace {
@@ -60,6 +59,20 @@ const Variable variables[] = {
      [](const World& w, std::size_t i) { return w.logbook(i).thrust_distance_m; }},
 };
 
+struct Attribute {
+  const char* name;
+  const char* value;
+};
+
+/// What makes positions the coordinates of all other variables (CF-1.8, sec. 5 and 9.5).
+std::vector<Attribute> attributes_of(const Variable& variable) {
+  const std::string_view name = variable.name;
+  if (name == "x") return {{"axis", "X"}};
+  if (name == "y") return {{"axis", "Y"}};
+  if (name == "depth") return {{"standard_name", "depth"}, {"positive", "down"}, {"axis", "Z"}};
+  return {{"coordinates", "time x y depth vehicle"}};
+}
+
 constexpr float missing = std::numeric_limits<float>::quiet_NaN();
 
 void write_names(NetcdfOutput& file, NetcdfOutput::Variable variable, const World& world,
@@ -93,8 +106,7 @@ void TrialRecord::observe(const World& world) {
 }
 
 void TrialRecord::write(const std::filesystem::path& path, const World& world,
-                        const std::vector<Series>& series,
-                        const std::vector<std::pair<std::string, std::string>>& attributes) const {
+                        const FileAttributes& attributes) const {
   using Type = NetcdfOutput::Type;
   NetcdfOutput file(path);
   const NetcdfOutput::Group root = file.root();
@@ -104,9 +116,6 @@ void TrialRecord::write(const std::filesystem::path& path, const World& world,
 
   std::size_t width = 1;
   for (const std::string& name : world.plan().names()) width = std::max(width, name.size());
-  const std::string since =
-      "seconds since " +
-      iso_text(parse_instant(world.scenario().trial.start, Calendar::standard), Calendar::standard);
   const auto vehicle_dim = file.dimension(root, "vehicle", world.size());
   const auto width_dim = file.dimension(root, "name_length", width);
   const auto time_dim = file.dimension(root, "time", time_s_.size());
@@ -115,14 +124,7 @@ void TrialRecord::write(const std::filesystem::path& path, const World& world,
       file.variable(root, "vehicle", Type::character, {vehicle_dim, width_dim}, "", "vehicle");
   file.text(vehicle, "cf_role", "trajectory_id");
   file.text(vehicle, "_Encoding", "utf-8");
-  const auto time_axis = [&](const std::string& name, NetcdfOutput::Dimension dimension) {
-    const auto axis = file.variable(root, name, Type::double_float, {dimension}, since,
-                                    "time since mission start");
-    file.text(axis, "standard_name", "time");
-    file.text(axis, "calendar", "standard");
-    return axis;
-  };
-  const auto time = time_axis("time", time_dim);
+  const auto time = mission_time(file, "time", time_dim, world.scenario().trial.start);
 
   std::vector<NetcdfOutput::Variable> recorded;
   for (const Variable& v : variables) {
@@ -130,6 +132,9 @@ void TrialRecord::write(const std::filesystem::path& path, const World& world,
         file.variable(root, v.name, Type::single_float, {vehicle_dim, time_dim}, v.unit, v.meaning);
     file.fill_with_nan(made);
     file.compress(made);
+    for (const Attribute& attribute : attributes_of(v)) {
+      file.text(made, attribute.name, attribute.value);
+    }
     if (std::string_view(v.name) == "target_reason") {
       file.text(made, "flag_meanings", reason_meanings());
       std::vector<double> flags;
@@ -138,20 +143,6 @@ void TrialRecord::write(const std::filesystem::path& path, const World& world,
     }
     recorded.push_back(made);
   }
-  struct Written {
-    const Series& series;
-    NetcdfOutput::Variable axis, values;
-  };
-  std::vector<Written> written;
-  for (const Series& s : series) {
-    if (s.time_s.empty()) continue;  // an axis of no length would be one without end
-    const std::string axis_name = s.name + "_time";
-    const auto dimension = file.dimension(root, axis_name, s.time_s.size());
-    const auto axis = time_axis(axis_name, dimension);
-    written.push_back(
-        {s, axis, file.variable(root, s.name, Type::double_float, {dimension}, s.unit, s.meaning)});
-  }
-
   write_names(file, vehicle, world, width);
   file.put(time, time_s_);
   const std::size_t n = world.size();
@@ -164,10 +155,6 @@ void TrialRecord::write(const std::filesystem::path& path, const World& world,
       }
     }
     file.put(recorded[v], std::span<const float>(transposed));
-  }
-  for (const auto& [s, axis, values] : written) {
-    file.put(axis, s.time_s);
-    file.put(values, s.values);
   }
   file.finish();
 }

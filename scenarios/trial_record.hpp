@@ -1,22 +1,12 @@
 #pragma once
 
 #include <filesystem>
-#include <string>
-#include <utility>
 #include <vector>
 
+#include "shoal/scenarios/series.hpp"
 #include "shoal/scenarios/world.hpp"
 
 namespace shoal::scenarios {
-
-/// One number of the whole swarm against time, with its own instants.
-struct Series {
-  std::string name;
-  std::string unit;
-  std::string meaning;
-  std::vector<double> time_s;
-  std::vector<double> values;
-};
 
 /// Records the state of every vehicle at regular instants, for run.nc.
 class TrialRecord final : public Observer {
@@ -26,11 +16,11 @@ class TrialRecord final : public Observer {
   double every_s() const override { return every_s_; }
   void observe(const World& world) override;
 
-  /// Writes a CF-1.8 file (trajectories; dimensions vehicle and time) that xarray opens. The file
-  /// appears under its name only when it is complete. Throws SystemError.
+  /// Writes trajectories as CF-1.8 describes them (sec. 9.3.1, orthogonal arrays: all vehicles
+  /// share the time axis). The file appears under its name only when it is complete. Throws
+  /// SystemError.
   void write(const std::filesystem::path& file, const World& world,
-             const std::vector<Series>& series,
-             const std::vector<std::pair<std::string, std::string>>& attributes) const;
+             const FileAttributes& attributes) const;
 
  private:
   double every_s_;

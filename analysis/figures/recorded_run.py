@@ -1,4 +1,4 @@
-"""What a folder of `shoal run` holds: scenario.toml and run.nc."""
+"""What a folder of `shoal run` holds: scenario.toml, run.nc and series.nc."""
 
 import math
 import tomllib
@@ -15,22 +15,26 @@ class RecordedRun:
     """A trial. Metres east and north, seconds; vehicles are numbered in the order of the plan."""
 
     def __init__(self, folder):
-        for name in ("scenario.toml", "run.nc"):
+        for name in ("scenario.toml", "run.nc", "series.nc"):
             if not (folder / name).is_file():
                 raise NoRun(f"{folder} has no {name}; name a folder that shoal run wrote, "
                             "with trial.record_every_s above 0")
         try:
             self.scenario = tomllib.loads((folder / "scenario.toml").read_text())
-            with netCDF4.Dataset(folder / "run.nc") as record:
-                self._values = {name: variable[:].filled(math.nan)
-                                if hasattr(variable[:], "filled") else variable[:]
-                                for name, variable in record.variables.items()
-                                if variable.dtype.kind in "fiu"}
-                self._dimensions = {name: variable.dimensions
-                                    for name, variable in record.variables.items()}
+            self._values, self._dimensions = {}, {}
+            for name in ("run.nc", "series.nc"):
+                with netCDF4.Dataset(folder / name) as record:
+                    self._take(record.variables)
         except (tomllib.TOMLDecodeError, OSError, RuntimeError) as error:
             raise NoRun(f"{folder} is damaged: {error}") from error
         self.time_s = self._values["time"]
+
+    def _take(self, variables):
+        for name, variable in variables.items():
+            self._dimensions[name] = variable.dimensions
+            if variable.dtype.kind in "fiu":
+                values = variable[:]
+                self._values[name] = values.filled(math.nan) if hasattr(values, "filled") else values
 
     def by_vehicle(self, name):
         """A recorded number: rows are instants, columns vehicles."""

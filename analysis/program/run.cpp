@@ -74,7 +74,7 @@ void run(const RunArguments& arguments) {
                corpus.situations.size());
   }
   fmt::print("written: {}/{{scenario.toml,{}summary.json{}}}\n", out.string(),
-             trial.record ? "run.nc," : "", arguments.report ? ",report.html" : "");
+             trial.record ? "run.nc,series.nc," : "", arguments.report ? ",report.html" : "");
 }
 
 }  // namespace shoal::program

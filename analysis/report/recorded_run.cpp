@@ -41,6 +41,41 @@ void require_possible(const NetcdfFile& file, const NetcdfVariable& variable,
   }
 }
 
+bool is_along(const NetcdfVariable* variable, std::vector<std::string> dimensions) {
+  return variable && variable->is_numeric &&
+         std::ranges::equal(variable->dimensions, dimensions, {},
+                            &scenarios::NetcdfDimension::name);
+}
+
+void read_vehicles(const NetcdfFile& file, RecordedRun& run) {
+  const NetcdfVariable* time = file.find("time");
+  const NetcdfVariable* x = file.find("x");
+  if (!is_along(time, {"time"}) || !is_along(x, {"vehicle", "time"})) {
+    file.refuse("is none that shoal run wrote");
+  }
+  if (x->dimensions[0].length == 0) file.refuse("holds no vehicle");
+  run.time_s = all_of(file, *time);
+  require_possible(file, *time, run.time_s);
+  run.vehicles = x->dimensions[0].length;
+  for (const NetcdfVariable& variable : file.variables()) {
+    if (!variable.is_numeric || variable.dimensions != x->dimensions) continue;
+    run.columns.emplace_back(variable.name, all_of(file, variable));
+    require_possible(file, variable, run.columns.back().second);
+  }
+}
+
+std::vector<scenarios::Series> series_of(const NetcdfFile& file) {
+  std::vector<scenarios::Series> series;
+  for (const NetcdfVariable& variable : file.variables()) {
+    const std::string axis_name = variable.name + "_time";
+    const NetcdfVariable* axis = file.find(axis_name);
+    if (!is_along(&variable, {axis_name}) || !is_along(axis, {axis_name})) continue;
+    series.push_back({variable.name, file.text(variable, "units"), file.text(variable, "long_name"),
+                      all_of(file, *axis), all_of(file, variable)});
+  }
+  return series;
+}
+
 }  // namespace
 
 const std::vector<double>& RecordedRun::column(const std::string& name) const {
@@ -49,35 +84,10 @@ const std::vector<double>& RecordedRun::column(const std::string& name) const {
   return found->second;
 }
 
-RecordedRun read_recorded_run(const std::filesystem::path& path) {
-  const NetcdfFile file(path);
-  const NetcdfVariable* time = file.find("time");
-  const NetcdfVariable* x = file.find("x");
-  const auto along = [](const NetcdfVariable* variable, std::vector<std::string> names) {
-    return variable && variable->is_numeric &&
-           std::ranges::equal(variable->dimensions, names, {}, &scenarios::NetcdfDimension::name);
-  };
-  if (!along(time, {"time"}) || !along(x, {"vehicle", "time"})) {
-    file.refuse("is none that shoal run wrote");
-  }
-  if (x->dimensions[0].length == 0) file.refuse("holds no vehicle");
+RecordedRun read_recorded_run(const std::filesystem::path& folder) {
   RecordedRun run;
-  run.time_s = all_of(file, *time);
-  require_possible(file, *time, run.time_s);
-  run.vehicles = x->dimensions[0].length;
-  for (const NetcdfVariable& variable : file.variables()) {
-    if (!variable.is_numeric) continue;
-    if (variable.dimensions == x->dimensions) {
-      run.columns.emplace_back(variable.name, all_of(file, variable));
-      require_possible(file, variable, run.columns.back().second);
-    } else if (variable.dimensions.size() == 1) {
-      const NetcdfVariable* axis = file.find(variable.dimensions[0].name);
-      if (axis == &variable || !along(axis, {variable.name + "_time"})) continue;
-      run.series.push_back({variable.name, file.text(variable, "units"),
-                            file.text(variable, "long_name"), all_of(file, *axis),
-                            all_of(file, variable)});
-    }
-  }
+  read_vehicles(NetcdfFile(folder / "run.nc"), run);
+  run.series = series_of(NetcdfFile(folder / "series.nc"));
   return run;
 }
 

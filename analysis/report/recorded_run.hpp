@@ -5,11 +5,11 @@
 #include <utility>
 #include <vector>
 
-#include "shoal/scenarios/trial_record.hpp"
+#include "shoal/scenarios/series.hpp"
 
 namespace shoal::analysis {
 
-/// What run.nc holds.
+/// What run.nc and series.nc hold.
 struct RecordedRun {
   std::vector<double> time_s;
   std::size_t vehicles = 0;
@@ -21,8 +21,8 @@ struct RecordedRun {
   const std::vector<double>& column(const std::string& name) const;
 };
 
-/// Throws InputError, beginning with the name of the file, if it cannot be read, or is none that
-/// `shoal run` wrote.
-RecordedRun read_recorded_run(const std::filesystem::path& file);
+/// Of the folder of a run. Throws InputError, beginning with the name of the file, if one of them
+/// cannot be read, or is none that `shoal run` wrote.
+RecordedRun read_recorded_run(const std::filesystem::path& folder);
 
 }  // namespace shoal::analysis

@@ -148,7 +148,7 @@ std::vector<std::string> write_run_report(const fs::path& folder) {
   data["vehicles"] = Json::array();
   data["series"] = Json::array();
   if (fs::exists(folder / "run.nc")) {
-    const RecordedRun run = read_recorded_run(folder / "run.nc");
+    const RecordedRun run = read_recorded_run(folder);
     if (run.time_s.empty()) throw InputError((folder / "run.nc").string() + " holds no instant");
     add_playback(scenario, run, data, notes);
     data["series"] = packed_series(run.series);

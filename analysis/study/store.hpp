@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "shoal/scenarios/trial_record.hpp"
+#include "shoal/scenarios/series.hpp"
 
 namespace shoal::analysis {
 

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "shoal/scenarios/scenario.hpp"
-#include "shoal/scenarios/trial_record.hpp"
+#include "shoal/scenarios/series.hpp"
 
 namespace shoal::analysis {
 

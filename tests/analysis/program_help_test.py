@@ -84,7 +84,7 @@ class Help(Desk):
         for end in ["", ".formula"]:
             self.assertEqual(self.say("describe", "potential.expression" + end),
                              self.say("describe", key + end))
-        self.assertIn("claim_test.order", self.say("describe", "claim_test.order"))
+        self.assertIn("claim_test.trend", self.say("describe", "claim_test.trend"))
         self.assertIn("  grid ", self.say("describe", "design"))
 
     def test_describe_a_study_and_what_stands_in_such_files(self):

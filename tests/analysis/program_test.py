@@ -50,7 +50,7 @@ class Trials(Desk):
 
     def test_a_trial_leaves_its_scenario_record_summary_and_report(self):
         summary = self.run_trial("redsea_square", "--set", "trial.duration_s=300")
-        self.assertEqual(self.files(), {"ok.toml", "out/scenario.toml", "out/run.nc",
+        self.assertEqual(self.files(), {"ok.toml", "out/scenario.toml", "out/run.nc", "out/series.nc",
                                         "out/summary.json", "out/report.html"})
         self.assertEqual(list(summary), BESIDE)
         self.assertEqual((summary["scenario"], summary["behaviour"], summary["vehicles"]),

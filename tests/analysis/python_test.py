@@ -48,8 +48,10 @@ class Trials(Desk):
                                    for word in ("--set", f"{key}={value}")))
         dataset, measures = shoal.run("redsea_square", sets, seed=7)
         self.assertEqual(measures, summary["metrics"])
-        program = xarray.load_dataset(self.desk / "out" / "run.nc", decode_times=False)
-        self.assertTrue(dataset.identical(program))
+        vehicles, series = (xarray.load_dataset(self.desk / "out" / name, decode_times=False)
+                            for name in ("run.nc", "series.nc"))
+        self.assertTrue(dataset.identical(vehicles.reset_coords(["x", "y", "depth"]).merge(series)))
+        self.assertLessEqual({"x", "y", "speed", "quality"}, set(dataset.data_vars))
         self.assertEqual(dict(dataset.sizes)["vehicle"], 20)
 
     def test_threads_recording_and_folders_change_no_number(self):
@@ -60,7 +62,7 @@ class Trials(Desk):
                         report=True)
         self.assertEqual(run.measures, plain)
         self.assertEqual({f.name for f in (self.desk / "here").iterdir()},
-                         {"scenario.toml", "run.nc", "summary.json", "report.html"})
+                         {"scenario.toml", "run.nc", "series.nc", "summary.json", "report.html"})
 
     def test_scenarios_may_be_names_files_and_dicts(self):
         whole = shoal.scenario("construction_square", {"trial.duration_s": 300})

@@ -49,7 +49,9 @@ class Report(Desk):
         with netCDF4.Dataset(self.desk / "out" / "run.nc") as record:
             values = {name: numpy.ma.filled(record[name][:].astype(float), numpy.nan)
                       for name in ("time", "x", "y", "heading", "speed", "energy_propulsion",
-                                   "energy_hotel", "energy_comms", "thrusting", "quality")}
+                                   "energy_hotel", "energy_comms", "thrusting")}
+        with netCDF4.Dataset(self.desk / "out" / "series.nc") as record:
+            values["quality"] = record["quality"][:].filled(numpy.nan)
         numpy.testing.assert_allclose(floats(data["time_s"]), values["time"])
         shape = values["x"].shape
         for axis in "xy":

@@ -75,13 +75,16 @@ def run(scenario: str | os.PathLike[str] | Mapping[str, Any],
         folder = pathlib.Path(out if out is not None else temporary)
         summary = _shoal.run(plain(scenario), changes, name_of(scenario, "scenario"), str(folder),
                              threads, record, report, progress)
-        return Run(_dataset(folder / "run.nc"), json.loads(summary)["metrics"])
+        return Run(_dataset(folder), json.loads(summary)["metrics"])
 
 
-def _dataset(file: pathlib.Path) -> xarray.Dataset | None:
-    if not file.exists():
+def _dataset(folder: pathlib.Path) -> xarray.Dataset | None:
+    if not (folder / "run.nc").exists():
         return None
     import xarray
 
     with _shoal.NetcdfLock():
-        return xarray.load_dataset(file, decode_times=False)
+        vehicles, series = (xarray.load_dataset(folder / name, decode_times=False)
+                            for name in ("run.nc", "series.nc"))
+    # Positions are coordinates in the file, as CF asks for; here they are numbers like others.
+    return vehicles.reset_coords(["x", "y", "depth"]).merge(series)
