@@ -82,7 +82,8 @@ Json charts(const Table& table) {
   for (std::size_t c = 0; c < table.columns.size(); ++c) {
     const Column& column = table.columns[c];
     std::vector<std::pair<std::string, Json>> of_column;  // title, rows
-    for (const std::vector<Cell>& row : table.rows) {
+    for (std::size_t r = 0; r < table.rows.size(); ++r) {
+      const std::vector<Cell>& row = table.rows[r];
       if (!known(row[c])) continue;
       std::string label, title = column.header;
       for (std::size_t l = 0; l < row.size() && !known(row[l]); ++l) {
@@ -97,6 +98,7 @@ Json charts(const Table& table) {
         of_column.emplace_back(title, Json::array());
       }
       of_column.back().second.push_back(points_of(label, *known(row[c])));
+      of_column.back().second.back()["cell"] = {r, c};
     }
     const std::string group = column.group.empty() ? "" : column.group + ": ";
     for (const auto& [title, rows] : of_column) {
@@ -115,6 +117,16 @@ Json failures(const StudyResults& results) {
         {{"trial", results.plan().title(results.plan().trial(i))}, {"reason", results.failure(i)}});
   }
   return failed;
+}
+
+/// Names of the tables that stand in a folder, in all their forms.
+Json written_tables(const fs::path& folder) {
+  Json names = Json::array();
+  std::error_code none;
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder, none)) {
+    if (entry.path().extension() == ".tex") names.push_back(entry.path().stem().string());
+  }
+  return names;
 }
 
 /// The SVG pictures of a folder, by name, as images that stand in the page.
@@ -160,6 +172,7 @@ void write_study_report(const fs::path& folder) {
                               {"html", print(table, TableFormat::html)},
                               {"points", charts(table)}});
   }
+  data["files"] = written_tables(folder / "tables");
   data["claims"] = claims(judged_claims(results, folder));
   write_whole_file(folder / "report.html", whole_page("study.html", data));
 }

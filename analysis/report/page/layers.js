@@ -48,6 +48,22 @@ function drawCurrent(ctx, {trial, camera, time, look}) {
   }));
 }
 
+/** What an arrow of the picture's current stands for. */
+function drawCurrentScale(ctx, {trial, camera, look}) {
+  const {spacing, fastest} = trial.current;
+  const pixels = 0.9 * spacing * camera.scale / Math.max(fastest, 1e-9);
+  const rough = Math.min(fastest, 90 / pixels);
+  const power = 10 ** Math.floor(Math.log10(rough));
+  const speed = [5, 2, 1].map(digit => digit * power).find(each => each <= rough);
+  if (!(speed * pixels >= 4)) return;  // too small to read
+  const [x, y] = [14, camera.height - 42];
+  ctx.strokeStyle = ctx.fillStyle = look.ink;
+  ctx.lineWidth = 1.5;
+  arrow(ctx, x, y, x + speed * pixels, y);
+  ctx.font = "12px system-ui, sans-serif";
+  ctx.fillText(`${numberText(speed)} m/s`, x + 5, y - 6);
+}
+
 function arrow(ctx, x0, y0, x1, y1) {
   const angle = Math.atan2(y1 - y0, x1 - x0);
   const head = Math.min(5, 0.5 * Math.hypot(x1 - x0, y1 - y0));

@@ -53,6 +53,21 @@ class Player {
     this.changed();
   }
 
+  /** Whether marks hide one another: a third of the vehicles share a square of their size. */
+  crowded() {
+    const squares = new Map();
+    let left = 0;
+    for (let i = 0; i < this.trial.size; ++i) {
+      if (this.trial.lost(i, this.time)) continue;
+      const place = this.camera.toScreen(...this.trial.position(i, this.time));
+      const square = place.map(pixel => Math.floor(pixel / VEHICLE_PIXELS)).join();
+      squares.set(square, (squares.get(square) ?? 0) + 1);
+      left += 1;
+    }
+    const sharing = [...squares.values()].reduce((sum, n) => sum + (n > 1 ? n : 0), 0);
+    return sharing > 1 && sharing >= left / 3;
+  }
+
   select(vehicle) {
     this.selected = vehicle;
     this.changed();
@@ -114,6 +129,7 @@ class Player {
       else layer.draw(ctx, scene);
     }
     drawScale(ctx, scene);
+    if (this.shown.has("current") && this.trial.current) drawCurrentScale(ctx, scene);
   }
 
   /** The vehicle nearest to a pixel, or -1 if none is near. */

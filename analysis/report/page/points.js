@@ -56,8 +56,12 @@ const points = {
     }
     return element("figure", {class: "points"},
       element("figcaption", {}, title + (unit ? ` (${unit})` : "")),
-      ...rows.map(row => element("div", {class: "points-row"},
-        element("div", {class: "points-label"}, row.label), this.strip(row, place))),
+      ...rows.map(row => {
+        const made = element("div", {class: "points-row"},
+          element("div", {class: "points-label"}, row.label), this.strip(row, place));
+        made.dataset.cell = row.cell.join();
+        return made;
+      }),
       element("div", {class: "points-row", "aria-hidden": "true"}, element("div"), scale));
   },
 
@@ -69,5 +73,23 @@ const points = {
       ...columns.map(column => this.chart(column)));
     section.open = !long;
     return section;
+  },
+
+  /** A cell of the table leads to its trials. */
+  link(table, section) {
+    const rows = table.querySelectorAll("tbody tr");
+    for (const target of section.querySelectorAll("[data-cell]")) {
+      const [row, column] = target.dataset.cell.split(",").map(Number);
+      const cell = rows[row].children[column];
+      const button = element("button", {type: "button", class: "to-trials", title: "its trials"});
+      button.append(...cell.childNodes);
+      cell.append(button);
+      button.addEventListener("click", () => {
+        section.open = true;
+        section.querySelector(".pointed")?.classList.remove("pointed");
+        target.classList.add("pointed");
+        target.scrollIntoView({block: "center"});
+      });
+    }
   },
 };

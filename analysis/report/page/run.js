@@ -61,6 +61,7 @@ function wirePlayback(player) {
     byId("clock").textContent = `${clockText(player.time)} / ${clockText(trial.end)}`;
     byId("play").textContent = player.playing ? "Pause" : "Play";
     vehicle.value = player.selected;
+    byId("crowd").hidden = !player.crowded();
     showNumbers(player);
     // Spoken when it rests: nobody can follow a voice at every frame.
     const at = `${player.time} ${player.selected}`;
@@ -111,9 +112,11 @@ function showNumbers({trial, time, selected}) {
 function showMeasures() {
   const table = byId("measures");
   for (const {name, value, unit, meaning} of data.measures.filter(each => each.value !== null)) {
-    table.append(element("tr", {}, element("th", {scope: "row"}, name),
-                         element("td", {class: "number"}, numberText(value)),
-                         element("td", {}, unit), element("td", {class: "meaning"}, meaning)));
+    // On a phone a row is a grid, which would be no row of a table to a screen reader.
+    const cell = (content, attributes) => element("td", {role: "cell", ...attributes}, content);
+    table.append(element("tr", {role: "row"}, element("th", {scope: "row", role: "rowheader"}, name),
+                         cell(numberText(value), {class: "number"}), cell(unit, {class: "unit"}),
+                         cell(meaning, {class: "meaning"})));
   }
   const without = data.measures.filter(each => each.value === null).map(each => each.name);
   byId("without").textContent = without.length

@@ -7,8 +7,10 @@ function showHead() {
   document.title = `${data.title} – shoal`;
   byId("title").textContent = data.title;
   const trials = data.done + data.failed + data.missing;
-  byId("facts").textContent = [`${trials} trials`, `${data.tables.length} tables`,
-                               `${data.claims.statements.length} statements`].join(" · ");
+  const counted = [[trials, "trial"], [data.tables.length, "table"],
+                   [data.claims.statements.length, "statement"]];
+  byId("facts").textContent = counted.filter(([count]) => count > 0)
+    .map(([count, noun]) => `${count} ${noun}${count === 1 ? "" : "s"}`).join(" · ");
   const note = text => byId("notes").append(element("p", {}, text));
   if (data.failed) note(`${data.failed} trials failed; they are missing from the numbers.`);
   if (data.missing) note(`${data.missing} trials have not run yet; shoal sweep runs them.`);
@@ -38,8 +40,12 @@ function statementRow(statement) {
     said.append(linesOf(part));
   }
   const number = statement.number ? `${statement.number} ` : "";
-  return element("tr", {"data-verdicts": statement.verdicts.join("|")}, verdictCell(statement.verdicts),
-                 element("td", {class: "quiet"}, number + statement.section), said);
+  const row = element("tr", {"data-verdicts": statement.verdicts.join("|"), role: "row"},
+                      verdictCell(statement.verdicts),
+                      element("td", {class: "quiet"}, number + statement.section), said);
+  // On a phone a row is a grid, which would be no row of a table to a screen reader.
+  for (const cell of row.children) cell.setAttribute("role", "cell");
+  return row;
 }
 
 function showClaims() {
@@ -47,6 +53,7 @@ function showClaims() {
   byId("claims-section").hidden = statements.length === 0;
   byId("counts").textContent = counts.join("; ");
   byId("claims-note").textContent = note;
+  if (!statements.some(each => each.number || each.section)) byId("claims-table").className = "unnumbered";
   for (const kind of ["all", "reproduced", "contradicted", "undecided", "not tested"]) {
     byId("verdicts").append(element("option", {value: kind}, kind));
   }
@@ -71,29 +78,45 @@ function showFigures() {
 const LONG_TABLE = 25;  // rows: longer ones are opened by hand
 
 function showTables() {
+  const list = element("ul");
   for (const {name, html, points: columns} of data.tables) {
     const place = element("div", {class: "scroll", tabindex: "0", role: "region",
                                   "aria-label": `Table ${name}`});
     place.innerHTML = html;  // escaped where it was made
+    const captioned = place.querySelector("caption");
+    const caption = captioned.textContent || name.replaceAll("_", " ");
+    captioned.replaceChildren(element("span", {}, caption));
     const rows = place.querySelectorAll("tbody tr").length;
     if (rows > LONG_TABLE) {
       byId("tables").append(element("details", {id: `long:${name}`},
-        element("summary", {}, `${place.querySelector("caption").textContent} (${rows} rows)`), place));
+        element("summary", {}, `${caption} (${rows} rows)`), place));
     } else {
       byId("tables").append(place);
     }
     if (columns.length > 0) {
       const shown = columns.reduce((sum, column) => sum + column.rows.length, 0);
-      const caption = place.querySelector("caption").textContent || name;
-      byId("tables").append(points.section(columns, caption, shown > LONG_TABLE));
+      const section = points.section(columns, caption, shown > LONG_TABLE);
+      byId("tables").append(section);
+      points.link(place.querySelector("table"), section);
     }
-    const link = element("a", {href: `#tab:${name}`}, name.replaceAll("_", " "));
+    if (data.files.includes(name)) byId("tables").append(filesOf(name));
+    const link = element("a", {href: `#tab:${name}`}, caption);
     link.addEventListener("click", () => {
       const long = byId(`long:${name}`);
       if (long) long.open = true;
     });
-    byId("contents").append(link, " ");
+    list.append(element("li", {}, link));
   }
+  if (data.tables.length > 1) {
+    byId("contents").append(element("details", {open: ""}, element("summary", {}, "Tables"), list));
+  }
+}
+
+/** The same table for a paper or another program, beside this page. */
+function filesOf(name) {
+  const link = ending => element("a", {href: `tables/${name}.${ending}`}, `${name}.${ending}`);
+  return element("p", {class: "files"}, "This table as ", link("tex"), ", ", link("csv"), " and ",
+                 link("md"));
 }
 
 function showFailures() {

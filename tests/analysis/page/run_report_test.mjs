@@ -301,6 +301,20 @@ test("charts are linked with the playback", async () => {
   page.quiet();
 });
 
+test("says what an arrow of the current stands for, and where vehicles hide one another", async () => {
+  const page = await opened("redsea");
+  const [fitted, far, hints] = await page.evaluate(() => {
+    const {player} = window.shoal;
+    const crowd = document.getElementById("crowd");
+    const fitted = player.crowded();
+    player.camera.zoom(0.01);
+    player.changed();
+    return [fitted, player.crowded(), !crowd.hidden];
+  });
+  assert.deepEqual([fitted, far, hints], [false, true, true]);
+  page.quiet();
+});
+
 test("measures, scenario and how to run it again are there", async () => {
   const page = await opened("redsea");
   const rows = await page.$$eval("#measures tr", all => all.map(row => row.textContent));

@@ -2,7 +2,7 @@
 
 import assert from "node:assert/strict";
 import {after, before, test} from "node:test";
-import {mkdirSync, writeFileSync} from "node:fs";
+import {existsSync, mkdirSync, writeFileSync} from "node:fs";
 import {join} from "node:path";
 import {launch, open, shoal, workFolder} from "./browser.mjs";
 
@@ -110,6 +110,29 @@ test("a long table is closed, and opens by its name in the contents", async () =
   assert.equal(await isOpen(), false);
   await page.click("#contents a >> text=against time");
   assert.equal(await isOpen(), true);
+  page.quiet();
+});
+
+test("a cell leads to its trials, and a table to its files", async () => {
+  const page = await open(browser, report);
+  await page.locator("#tables tbody tr").nth(1).locator("button.to-trials").first().click();
+  assert.equal(await page.locator(".pointed").count(), 1);
+  assert.match(await page.textContent(".pointed .points-label"), /pairwise/);
+  const files = await page.$$eval(".files a", all => all.map(each => each.getAttribute("href")));
+  assert.ok(files.includes("tables/energy.csv"), files);
+  for (const file of files) assert.ok(existsSync(join(folder, "out", file)), file);
+  page.quiet();
+});
+
+test("what is said of a wide table stays in sight while it is scrolled", async () => {
+  const page = await open(browser, report, {viewport: {width: 375, height: 740}});
+  const places = await page.$eval("#tables .scroll", box => {
+    box.querySelector("table").style.minWidth = "900px";
+    box.scrollLeft = 400;
+    return [box.querySelector("caption span"), box.querySelector("figcaption")]
+      .map(each => [each.getBoundingClientRect().left, each.getBoundingClientRect().right]);
+  });
+  for (const [left, right] of places) assert.ok(left >= 0 && right <= 375, `${left} to ${right}`);
   page.quiet();
 });
 
