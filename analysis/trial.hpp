@@ -36,8 +36,9 @@ Trial run_trial(const scenarios::Scenario& scenario, const TrialSettings& settin
 /// The content of summary.json.
 std::string summary_json(const Trial& trial, const std::string& name);
 
-/// Writes scenario.toml (resolved), run.nc and series.nc (if recorded) and summary.json into a folder, which is
-/// made if need be. Each file appears when it is complete, the summary last. Throws SystemError.
+/// Writes scenario.toml (resolved), run.nc and series.nc (if recorded) and summary.json into a
+/// folder, which is made if need be. Each file appears when it is complete, the summary last.
+/// Throws SystemError.
 void write_trial(const Trial& trial, const std::string& name, const std::filesystem::path& folder);
 
 /// Throws SystemError unless files can be written in the folder (which is made if need be).

@@ -1,3 +1,4 @@
+#!/usr/bin/env python3
 """Every option of a scenario at its extremes: the program runs, or refuses in one line; it neither
 crashes nor hangs, and stays below a limit of memory.
 
