@@ -1,9 +1,12 @@
 """Figures against time."""
 
+import legends
 import matplotlib.pyplot as plt
+import numpy
 import style
 
-MANY = 8  # vehicles: more are shown by their range
+MANY = len(style.COLOURS)  # vehicles: more are shown by their range
+INSTANTS = 240  # more of a range are a smear, even on two columns
 
 
 def time_axes(run, rows=1):
@@ -12,8 +15,21 @@ def time_axes(run, rows=1):
     axes = axes[:, 0]
     hours = run.time_s[-1] > 3600
     axes[-1].set_xlabel("Time (h)" if hours else "Time (s)")
-    axes[-1].set_xlim(0, run.time_s[-1] / (3600 if hours else 1))
+    for each in axes:
+        each.margins(x=0)
     return figure, axes, (lambda seconds: seconds / 3600) if hours else (lambda seconds: seconds)
+
+
+def from_start(*axes):
+    """Once curves are drawn: limits that are set before hold for what was there, nothing."""
+    for each in axes:
+        each.set_xlim(left=0)
+
+
+def from_zero(*axes):
+    from_start(*axes)
+    for each in axes:
+        each.set_ylim(bottom=0)
 
 
 def speeds(run):
@@ -22,20 +38,30 @@ def speeds(run):
     figure, (axes,), clock = time_axes(run)
     axes.set_ylabel("Speed (m/s)")
     if speed.shape[1] <= MANY:
-        for vehicle in range(speed.shape[1]):
-            axes.plot(clock(run.time_s), speed[:, vehicle], color=style.colour(vehicle),
-                      label=f"{vehicle + 1}")
-        axes.legend(title="vehicle", loc="best", ncol=2)
+        lines = [style.curve(axes, clock(run.time_s), speed[:, vehicle], vehicle, label=f"{vehicle + 1}")
+                 for vehicle in range(speed.shape[1])]
+        legends.legend_above(figure, lines, "Vehicle")
     else:
-        envelope(axes, clock(run.time_s), speed.min(axis=1), speed.mean(axis=1), speed.max(axis=1))
-        axes.legend(loc="best")
+        envelope(axes, *coarse(clock(run.time_s), speed))
+    from_start(axes)
     return figure
 
 
-def envelope(axes, time, least, mean, greatest):
-    axes.fill_between(time, least, greatest, color=style.COLOURS[0], alpha=0.2, linewidth=0,
-                      label="all vehicles")
-    axes.plot(time, mean, color=style.COLOURS[0], label="mean")
+def coarse(time, values):
+    """Instants, and the least, mean and greatest of all vehicles: of each instant, or of equal parts of
+    the time if there are many."""
+    parts = numpy.array_split(numpy.arange(len(time)), min(len(time), INSTANTS))
+    values = numpy.ma.masked_invalid(values)  # of vehicles that were lost
+    return (numpy.array([time[part].mean() for part in parts]),
+            *(numpy.ma.filled(numpy.ma.stack([of(values[part]) for part in parts]), numpy.nan)
+              for of in (numpy.ma.min, numpy.ma.mean, numpy.ma.max)))
+
+
+def envelope(axes, x, least, mean, greatest):
+    shade = axes.fill_between(x, least, greatest, facecolor=style.shade(0),
+                              edgecolor=style.colour(0), linewidth=0.3, label="all vehicles")
+    line = style.curve(axes, x, mean, label="mean")
+    legends.legend_above(axes.figure, [shade, line])
 
 
 def energy(run):
@@ -46,32 +72,28 @@ def energy(run):
     figure, (axes,), clock = time_axes(run)
     axes.set_ylabel("Energy (Wh)")
     envelope(axes, clock(mean[0]), least[1], mean[1], greatest[1])
-    axes.legend(loc="best")
+    from_start(axes)
     return figure
 
 
 def quality(run):
     """Formation quality: Rypkema 2015, figures 5.13 ff."""
-    found = run.series("quality")
-    if found is None:
-        return None
-    figure, (axes,), clock = time_axes(run)
-    axes.set_ylabel("Formation quality (m)")
-    axes.set_ylim(0, None)
-    axes.plot(clock(found[0]), found[1], color=style.COLOURS[0])
-    axes.set_ylim(bottom=0)
-    return figure
+    return of_series(run, "quality", "Formation quality (m)")
 
 
 def efficiency(run):
     """How far the swarm comes for what it spends, so far: Rypkema 2015, figures 5.72 ff."""
-    found = run.series("efficiency_m_per_wh")
+    return of_series(run, "efficiency_m_per_wh", "Path / energy (m/Wh)")
+
+
+def of_series(run, name, label):
+    found = run.series(name)
     if found is None:
         return None
     figure, (axes,), clock = time_axes(run)
-    axes.set_ylabel("Path / energy (m/Wh)")
-    axes.plot(clock(found[0]), found[1], color=style.COLOURS[0])
-    axes.set_ylim(bottom=0)
+    axes.set_ylabel(label)
+    style.curve(axes, clock(found[0]), found[1])
+    from_zero(axes)
     return figure
 
 
@@ -86,7 +108,6 @@ def energy_by_distance(run):
     axes.set_xlabel("Path of the centroid (m)")
     axes.set_ylabel("Energy (Wh)")
     envelope(axes, path[1], least[1], mean[1], greatest[1])
-    axes.legend(loc="best")
     return figure
 
 
@@ -98,10 +119,11 @@ def thrust(run):
         return None
     figure, (axes,), clock = time_axes(run)
     axes.set_ylabel("Share thrusting")
+    lines = [style.curve(axes, clock(found[0]), found[1], k, label=label)
+             for k, (found, label) in enumerate(shares)]
+    from_start(axes)
     axes.set_ylim(0, 1.02)
-    for found, label in shares:
-        axes.plot(clock(found[0]), found[1], label=label)
-    axes.legend(loc="best")
+    legends.legend_above(figure, lines)
     return figure
 
 
@@ -116,8 +138,8 @@ def passage(run):
         return None
     figure, axes, clock = time_axes(run, len(shown))
     for each, (found, label) in zip(axes, shown):
-        each.plot(clock(found[0]), found[1], color=style.COLOURS[0])
+        style.curve(each, clock(found[0]), found[1])
         each.set_ylabel(label)
-        each.set_ylim(bottom=0)
+    from_zero(*axes)
     figure.align_ylabels()
     return figure

@@ -3,11 +3,16 @@ built."""
 
 import math
 
+import fitting
+import legends
 import matplotlib.pyplot as plt
 import matplotlib.ticker
 import numpy
 import over_ground
 import style
+
+ARROWS = 16  # along the longer side
+KEY_IN = 0.25
 
 try:
     import shoal
@@ -36,7 +41,7 @@ def potential(run):
     law = shoal.potential(kind, **options["potential"].get(kind, {}))
     figure, axes = plt.subplots(3, 1, sharex=True)
     figure.set_figheight(1.6 * figure.get_figheight())
-    for ax, values, label in zip(axes, law.derivatives(r, s), ("Value", "Slope (1/m)", "Curvature (1/m2)")):
+    for ax, values, label in zip(axes, law.derivatives(r, s), ("Value", "Slope (1/m)", "Curvature (1/m²)")):
         ax.plot(r, values, color=style.COLOURS[0])
         ax.axvline(s, color=style.GROUND, linewidth=0.8, zorder=0)
         ax.set_ylabel(label)
@@ -74,19 +79,17 @@ def cost_surface(run):
     shown = axes.contourf(axis, axis, numpy.minimum(surface, top), levels=levels, cmap="cividis")
     figure.colorbar(shown, ax=axes, label="Cost", shrink=0.8)
     near = numpy.abs(neighbours).max(axis=1) <= reach
-    axes.plot(*neighbours[near].T, "o", color=style.COLOURS[1], markersize=4, label="neighbours")
-    axes.plot(0, 0, "x", color="white", markersize=5, label="vehicle")
     target = shoal.solve(problem).x
-    axes.plot(*target, "*", color="white", markersize=7, label="minimum")
+    # White for the dark middle of the surface, edged with black for the paper behind a legend.
+    edged = {"linestyle": "none", "markeredgecolor": "black", "markeredgewidth": 0.7, "clip_on": False}
+    marks = [*axes.plot(*neighbours[near].T, "o", color=style.COLOURS[1], markersize=4.5,
+                        label="neighbours", **edged),
+             *axes.plot(0, 0, "X", color="white", markersize=6, label="vehicle", **edged),
+             *axes.plot(*target, "*", color="white", markersize=9, label="minimum", **edged)]
     axes.set_aspect("equal")
     axes.set_xlabel("East of the vehicle (m)")
     axes.set_ylabel("North of the vehicle (m)")
-    legend = axes.legend(loc="lower center", bbox_to_anchor=(0.5, 1.0), ncol=3)
-    for text in legend.get_texts():
-        text.set_color("black")
-    for handle in legend.legend_handles if hasattr(legend, "legend_handles") else legend.legendHandles:
-        if handle.get_color() == "white":
-            handle.set_color("black")
+    legends.legend_above(figure, marks)
     return figure
 
 
@@ -121,14 +124,14 @@ def filter_lag(run):
     if len(times) < 2:
         return None
     figure, axes = plt.subplots()
-    scale = 3600 if last > 3600 else 1
-    axes.plot(numpy.array(times) / scale, measured, ".", color=style.COLOURS[5], markersize=3,
-              label="measured")
-    axes.plot(numpy.array(times) / scale, actual, color=style.COLOURS[6], label="actual")
-    axes.plot(numpy.array(times) / scale, filtered, color=style.COLOURS[1], label="filtered")
-    axes.set_xlabel("Time (h)" if scale > 1 else "Time (s)")
+    clock = numpy.array(times) / (3600 if last > 3600 else 1)
+    marks = [*axes.plot(clock, measured, ".", color=style.COLOURS[5], markersize=3, label="measured"),
+             style.curve(axes, clock, actual, color="black", linestyle="-", marker="", label="actual"),
+             style.curve(axes, clock, filtered, 1, marker="", label="filtered")]
+    axes.set_xlabel("Time (h)" if last > 3600 else "Time (s)")
     axes.set_ylabel("Range of a neighbour (m)")
-    axes.legend(loc="best")
+    axes.margins(x=0)
+    legends.legend_above(figure, marks)
     return figure
 
 
@@ -137,14 +140,21 @@ def current(run):
     if shoal is None or run.scenario["current"]["kind"] == "none":
         return None
     x, y = run.by_vehicle("x"), run.by_vehicle("y")
-    figure, axes = over_ground.plane(run, x[numpy.isfinite(x)], y[numpy.isfinite(y)])
-    east, north = (numpy.linspace(*limits, 17)[1:-1] for limits in (axes.get_xlim(), axes.get_ylim()))
-    east, north = numpy.meshgrid(east, north)
+    figure, axes, _ = over_ground.plane(run, x, y)
+    (west, east), (south, north) = axes.get_xlim(), axes.get_ylim()
+    step = max(east - west, north - south) / ARROWS
+    east, north = numpy.meshgrid(numpy.arange(west + step / 2, east, step),
+                                 numpy.arange(south + step / 2, north, step))
     u, v = shoal.current(run.scenario, float(run.time_s[-1]) / 2, east, north)
     if not numpy.isfinite(u).any() or not numpy.nanmax(numpy.hypot(u, v)) > 0:
         plt.close(figure)
         return None
-    arrows = axes.quiver(east, north, u, v, color=style.COLOURS[0], angles="xy", width=0.004)
-    fastest = float(f"{numpy.nanmax(numpy.hypot(u, v)):.1g}")
-    axes.quiverkey(arrows, 0.85, 1.04, fastest, f"{fastest:g} m/s", labelpos="E")
+    fastest = float(numpy.nanmax(numpy.hypot(u, v)))
+    # The longest arrow is a step long, about its place: none leaves the axes or meets another.
+    arrows = axes.quiver(east, north, u, v, color=style.COLOURS[0], pivot="middle", angles="xy",
+                         scale_units="xy", scale=fastest / step, width=0.004)
+    shown = float(f"{fastest:.1g}")
+    fitting.heighten(figure, strip=KEY_IN)
+    axes.quiverkey(arrows, 0.5, 1 - 0.5 * KEY_IN / figure.get_figheight(), shown, f"{shown:g} m/s",
+                   labelpos="E", coordinates="figure")
     return figure

@@ -2,32 +2,48 @@
 
 import math
 
+import legends
 import matplotlib.patches
 import matplotlib.pyplot as plt
 import numpy
 import style
 
+BESIDE_IN, BELOW_IN = 0.6, 0.5  # labels of axes
+MANY = 50  # vehicles whose marks would hide their paths
+
 
 def plane(run, x, y):
-    """Axes in metres that hold these places, with obstacles and way-point."""
+    """Axes in metres that hold these places, with obstacles and way-point; the mark of that, if there
+    is one."""
     figure, axes = plt.subplots()
     axes.set_xlabel("East (m)")
     axes.set_ylabel("North (m)")
-    axes.set_aspect("equal")
-    shown = [numpy.ravel(x), numpy.ravel(y)]
+    shown = [numpy.column_stack([numpy.ravel(x), numpy.ravel(y)])]
+    marks = []
     if run.waypoint:
-        axes.plot(*run.waypoint, marker="*", color="black", markersize=7, linestyle="none",
-                  label="way-point", zorder=4)
-        shown = [numpy.append(s, w) for s, w in zip(shown, run.waypoint)]
+        marks = axes.plot(*run.waypoint, marker="*", color="black", markersize=7, linestyle="none",
+                          label="way-point", zorder=4)
+        shown.append([run.waypoint])
     for kind, options in run.obstacles:
-        axes.add_patch(shape(kind, options))
-        reach = options.get("radius_m") or max(options["half_length_m"], options["half_width_m"])
-        shown = [numpy.append(s, [options[c] - reach, options[c] + reach])
-                 for s, c in zip(shown, ("x_m", "y_m"))]
-    for limits, values in ((axes.set_xlim, shown[0]), (axes.set_ylim, shown[1])):
-        margin = 0.04 * (values.max() - values.min()) + 5.0
-        limits(values.min() - margin, values.max() + margin)
-    return figure, axes
+        patch = axes.add_patch(shape(kind, options))
+        outline = patch.get_path().transformed(patch.get_patch_transform())
+        shown.append(outline.get_extents().get_points())
+    show(figure, axes, numpy.concatenate(shown))
+    return figure, axes, marks
+
+
+def show(figure, axes, places):
+    """Limits that hold all places, in axes of their shape: a metre north is as long as one east."""
+    low, high = numpy.nanmin(places, axis=0), numpy.nanmax(places, axis=0)
+    margin = 0.04 * (high - low) + 5.0
+    low, high = low - margin, high + margin
+    axes.set_xlim(low[0], high[0])
+    axes.set_ylim(low[1], high[1])
+    axes.set_aspect("equal")
+    width = figure.get_figwidth()
+    height = (width - BESIDE_IN) * (high[1] - low[1]) / (high[0] - low[0])
+    most = 0.7 * width if style.wide() else width
+    figure.set_figheight(min(max(height, 0.3 * width), most) + BELOW_IN)
 
 
 def shape(kind, options):
@@ -45,35 +61,40 @@ def shape(kind, options):
     return matplotlib.patches.Rectangle(corner, length, width, angle=angle, **looks)
 
 
-
 def trajectories(run):
     """Crosses where vehicles start, circles where they end: Rypkema 2015, chapter 5; Barisic et al.
     2011, figures 10 and 12."""
     x, y = run.by_vehicle("x"), run.by_vehicle("y")
-    figure, axes = plane(run, x, y)
+    figure, axes, marks = plane(run, x, y)
     for vehicle in range(x.shape[1]):
         axes.plot(x[:, vehicle], y[:, vehicle], color=style.colour(vehicle), linewidth=0.7,
                   zorder=2)
-    axes.plot(x[0], y[0], "x", color="black", markersize=4, markeredgewidth=0.8, label="start",
-              zorder=3)
-    axes.plot(x[-1], y[-1], "o", color=style.COLOURS[1], markersize=4, fillstyle="none",
-              markeredgewidth=0.8, label="end", zorder=3)
-    axes.legend(loc="lower center", bbox_to_anchor=(0.5, 1.0), ncol=3)
+    size = 4 if x.shape[1] <= MANY else 2
+    marks += axes.plot(x[0], y[0], "x", color="black", markersize=size, markeredgewidth=0.2 * size,
+                       label="start", zorder=3)
+    east, north, lost = run.ends()
+    for some, mark, label in ((~lost, "o", "end"), (lost, "s", "lost")):
+        if some.any():
+            marks += axes.plot(east[some], north[some], mark, color=style.COLOURS[1], markersize=size,
+                               fillstyle="none", markeredgewidth=0.2 * size, label=label, zorder=3)
+    legends.legend_above(figure, marks)
     return figure
 
 
 def basin(run):
     """Which starts arrive: Barisic et al. 2011, figure 2. Of swarms that go to a way-point and are
     large enough for a picture."""
-    if not run.waypoint or run.by_vehicle("x").shape[1] < 50:
+    if not run.waypoint or run.by_vehicle("x").shape[1] < MANY:
         return None
     x, y = run.by_vehicle("x"), run.by_vehicle("y")
     arrived = run.arrived()
-    figure, axes = plane(run, x[0], y[0])
+    figure, axes, marks = plane(run, *(numpy.append(each[0], each[:, ~arrived]) for each in (x, y)))
     for some, mark, colour, label in ((arrived, ".", style.COLOURS[5], "arrives"),
                                       (~arrived, "s", style.COLOURS[1], "never arrives")):
-        axes.plot(x[0, some], y[0, some], mark, color=colour, markersize=3, label=label, zorder=3)
+        if some.any():
+            marks += axes.plot(x[0, some], y[0, some], mark, color=colour, markersize=3, label=label,
+                               zorder=3)
     for vehicle in numpy.flatnonzero(~arrived):
         axes.plot(x[:, vehicle], y[:, vehicle], color=style.COLOURS[1], linewidth=0.4, zorder=2)
-    axes.legend(loc="lower center", bbox_to_anchor=(0.5, 1.0), ncol=3)
+    legends.legend_above(figure, marks)
     return figure

@@ -42,10 +42,18 @@ class RecordedRun:
         return values if self._dimensions[name][0] == "time" else values.T
 
     def series(self, name):
-        """(seconds, numbers) of a measure against time, or nothing if it was not measured."""
-        if name not in self._values:
+        """(seconds, numbers) of a measure against time, or nothing if it has no value."""
+        if name not in self._values or not numpy.isfinite(self._values[name]).any():
             return None
         return self._values[self._dimensions[name][0]], self._values[name]
+
+    def ends(self):
+        """(east, north, whether it was lost) of each vehicle, where it was recorded last."""
+        x, y = self.by_vehicle("x"), self.by_vehicle("y")
+        known = numpy.isfinite(x) & numpy.isfinite(y)
+        last = len(x) - 1 - numpy.argmax(known[::-1], axis=0)
+        vehicles = numpy.arange(x.shape[1])
+        return x[last, vehicles], y[last, vehicles], ~known[-1]
 
     @property
     def obstacles(self):

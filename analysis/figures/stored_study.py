@@ -8,6 +8,8 @@ from recorded_run import NoRun
 
 # What tables say besides their numbers, and what has a look of its own.
 NO_NUMBERS = {"claims"}
+# Of few trials, sensitivities and attributions have no intervals by which their numbers would be known.
+INDICES = {"first_order", "total", "second_order", "mu_star", "sigma", "share", "alone", "last"}
 
 
 class StudyTable:
@@ -16,7 +18,8 @@ class StudyTable:
     def __init__(self, name, caption, rows):
         self.name, self.caption, self.rows = name, caption, rows
         header = list(rows[0]) if rows else []
-        self.numbers = [c for c in header if c + "_n" in header or c + "_low" in header]
+        known = INDICES if {"metric", "factor"} <= set(header) else set()
+        self.numbers = [c for c in header if c + "_n" in header or c + "_low" in header or c in known]
         # What says of which row it is stands before all numbers.
         self.labels = header[:header.index(self.numbers[0])] if self.numbers else header
 
@@ -26,16 +29,14 @@ class StudyTable:
     def bounds(self, name):
         """Least and greatest of each number; the number itself where nothing is known."""
         values = self.column(name)
-        if name + "_sd" in self.rows[0]:
-            by = self.column(name + "_sd")
-            return [v - b for v, b in zip(values, by)], [v + b for v, b in zip(values, by)]
-        if name + "_plus_minus" in self.rows[0]:
-            by = [0.0 if math.isnan(b) else b for b in self.column(name + "_plus_minus")]
-            return [v - b for v, b in zip(values, by)], [v + b for v, b in zip(values, by)]
+        for ending in ("_sd", "_plus_minus"):
+            if name + ending in self.rows[0]:
+                by = [0.0 if math.isnan(b) else b for b in self.column(name + ending)]
+                return [v - b for v, b in zip(values, by)], [v + b for v, b in zip(values, by)]
         if name + "_low" in self.rows[0]:
-            return self.column(name + "_low"), self.column(name + "_high")
+            return tuple([v if math.isnan(b) else b for v, b in zip(values, self.column(name + end))]
+                         for end in ("_low", "_high"))
         return values, values
-
 
     def each(self, name):
         """The trials behind each number; none where they are not known."""
@@ -61,10 +62,7 @@ class StoredStudy:
         files = {file.stem: file for file in sorted((folder / "tables").glob("*.csv"))}
         if not files:
             raise NoRun(f"{folder} has no tables; shoal tables {folder} writes them")
-        self.requests = {}
-        for kind in ("table", "comparison", "sensitivity"):
-            for request in study.get(kind, []):
-                self.requests[request["name"]] = {**request, "of": kind}
+        self.requests = requests_of(study)
         self.tables = {}
         for name in [*self.requests, *(n for n in files if n not in self.requests)]:
             if name in files and name not in NO_NUMBERS:
@@ -72,3 +70,34 @@ class StoredStudy:
                     rows = list(csv.DictReader(file))
                 caption = self.requests.get(name, {}).get("caption", name)
                 self.tables[name] = StudyTable(name, caption, rows)
+
+
+def requests_of(study):
+    """name -> what was asked for, of which kind, and with which factors of the study."""
+    requests = {}
+    for kind in ("table", "comparison", "sensitivity", "attribution"):
+        for request in study.get(kind, []):
+            asked = {**request, "of": kind, "factors": factors_of(study)}
+            requests[request["name"]] = asked
+            if kind == "sensitivity":
+                requests |= {request["name"] + part: asked for part in ("_second_order", "_convergence")}
+    return requests
+
+
+def factors_of(study):
+    """name -> (its levels, the option that it sets, if that is one)."""
+    groups = study.get("group", [])
+    factors = {"group": ([group.get("name", "") for group in groups], "")}
+    for factor in [*study.get("factor", []), *(f for group in groups for f in group.get("factor", []))]:
+        key = factor.get("key", "").rpartition(".")[2]
+        levels, _ = factors.setdefault(factor.get("name", key), ([], key))
+        own = [level["label"] for level in factor.get("level", [])] or factor.get("values", [])
+        levels += [label for label in map(label_of, own) if label not in levels]
+    return factors
+
+
+def label_of(value):
+    """As tables write a level."""
+    if isinstance(value, bool):
+        return "true" if value else "false"
+    return f"{value:g}" if isinstance(value, float) and float(f"{value:g}") == value else str(value)

@@ -88,8 +88,10 @@ class Figures(Desk):
         import matplotlib
         matplotlib.use("Agg")
         import of_study
+        import style
         from stored_study import StudyTable
 
+        self.enterContext(style.page(1))
         rows = [{"group": g, "period_s": p, "square_energy_mean_wh": v, "square_energy_mean_wh_low": low,
                  "square_energy_mean_wh_high": high, "square_energy_mean_wh_n": "3"}
                 for g, p, v, low, high in (("a", "30", "5", "4", "7"), ("a", "5", "2", "1", "3"),

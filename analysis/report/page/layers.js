@@ -6,8 +6,8 @@
 
 const VEHICLE_PIXELS = 8;
 
-/** Okabe and Ito 2008, as in the figures; black is the ink of the page. */
-const COLOURS = ["#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9", "ink"];
+/** Okabe and Ito 2008 with two darkened, as in the figures; black is the ink of the page. */
+const COLOURS = ["#0072B2", "#D55E00", "#009E73", "#CC79A7", "#BF8500", "#2F96CF", "ink"];
 
 function vehicleColour(vehicle, look) {
   const colour = COLOURS[vehicle % COLOURS.length];

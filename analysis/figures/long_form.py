@@ -1,0 +1,146 @@
+"""A table of a study as one row a number, wherever its request put factors: in rows or in columns."""
+
+import dataclasses
+import itertools
+import math
+
+import names
+from stored_study import label_of
+
+UNNAMED = ""  # the factors that columns show, where their names cannot be told apart
+
+
+@dataclasses.dataclass(frozen=True)
+class Number:
+    """A number of a table, and the trials behind it."""
+
+    metric: str
+    levels: dict  # factor -> level: those of rows, then those of columns
+    value: float
+    low: float
+    high: float
+    trials: list
+
+    @property
+    def known(self):
+        return not math.isnan(self.value)
+
+    def key(self, factors):
+        return tuple((factor, self.levels.get(factor, "")) for factor in factors)
+
+
+def numbers_of(table, request):
+    """Row by row. Of a metric that stands in the rows, the columns are its kinds of numbers."""
+    in_rows = "metric" in table.labels
+    places = {} if in_rows else columns_of(request)
+    found = []
+    for column in table.numbers:
+        metric, levels = places.get(column) or guessed(column, request)
+        if in_rows:
+            metric, levels = "", {UNNAMED: column} if len(table.numbers) > 1 else {}
+        values, trials = table.column(column), table.each(column)
+        found.append([(row.get("metric", metric), levels, value, low, high, each)
+                      for row, value, low, high, each
+                      in zip(table.rows, values, *table.bounds(column), trials)])
+    numbers = []
+    for row, across in zip(table.rows, zip(*found)):
+        own = {label: row[label] for label in table.labels if label != "metric"}
+        numbers += [Number(metric, {**own, **levels}, *rest) for metric, levels, *rest in across]
+    return numbers
+
+
+def columns_of(request):
+    """column -> (metric, levels), of a request that names its metrics and a study that lists its
+    levels."""
+    metrics = request.get("metrics") or request.get("series") or []
+    factors = request.get("columns", [])
+    levels = [request.get("factors", {}).get(factor, ([], ""))[0] for factor in factors]
+    return {"_".join([*some, metric]): (metric, dict(zip(factors, some)))
+            for some in itertools.product(*levels) for metric in metrics}
+
+
+def guessed(column, request):
+    """(metric, levels) of a column that is not among those: its metric is known by its end."""
+    metrics = request.get("metrics") or request.get("series") or []
+    metric = next((m for m in sorted(metrics, key=len, reverse=True) if column.endswith(m)), column)
+    level = column.removesuffix(metric).strip("_")
+    return metric, {UNNAMED: level} if level else {}
+
+
+def by_metric(numbers):
+    """metric -> its numbers; of metrics that have any value."""
+    found = {}
+    for number in numbers:
+        found.setdefault(number.metric, []).append(number)
+    return {metric: some for metric, some in found.items() if any(n.known for n in some)}
+
+
+def without(number, factors):
+    """Its levels of all other factors, as a key."""
+    return tuple((factor, level) for factor, level in number.levels.items() if factor not in factors)
+
+
+class Wording:
+    """What a figure calls the factors, levels and metrics of a request."""
+
+    def __init__(self, request):
+        self.request = request
+        self.columns = set(request.get("columns", [])) | {UNNAMED}
+        self.is_difference = request.get("of") == "comparison"
+
+    def factor(self, name):
+        """(words, unit): that of the option which a factor sets, if its own name has none."""
+        text, unit = names.parted(name)
+        option = self.request.get("factors", {}).get(name, ([], ""))[1]
+        return text, unit or names.parted(option)[1]
+
+    def axis(self, name):
+        return names.sentence(names.with_unit(*self.factor(name)))
+
+    def level(self, factor, level, full=False):
+        """A number needs a unit, or the name of its factor, to say what it is; in full, both."""
+        if factor == UNNAMED or not names.is_number(level):
+            return names.plain(level)
+        text, unit = self.factor(factor)
+        if not unit:
+            return f"{text} {level}"
+        return f"{text} {level} {unit}" if full else f"{level} {unit}"
+
+    def levels(self, key, full=False):
+        """Of factors that do not apply there is nothing to say; a dash, as in tables, if none does."""
+        texts = [self.level(*part, full) for part in key if part[1]]
+        return ", ".join(texts) or ("-" if any(factor != UNNAMED for factor, _ in key) else "")
+
+    def metric(self, metric):
+        """Of a comparison, that it is a difference, and from what."""
+        text, unit = self.metric_parts(metric)
+        if self.is_difference:
+            reference = self.level(self.request["factor"], label_of(self.request["reference"]),
+                                   full=True)
+            text = f"{text}: difference from {reference}"
+        return names.sentence(names.with_unit(text, unit))
+
+    def total(self, metric):
+        return names.sentence(f"total index of {self.metric_parts(metric)[0]}")
+
+    def variance(self, metric):
+        return names.sentence(f"share of the variance of {self.metric_parts(metric)[0]}")
+
+    def effect(self, metric):
+        text, unit = self.metric_parts(metric)
+        return names.sentence(names.with_unit(f"effect on {text}", unit))
+
+    def change(self, metric):
+        """What is attributed may be how much more there is than in another group."""
+        text, unit = self.metric_parts(metric)
+        minus = self.request.get("minus", "")
+        beyond = f" beyond that of {names.plain(minus)}" if minus else ""
+        return names.sentence(names.with_unit(f"effect on {text}{beyond}", unit))
+
+    def metric_parts(self, metric):
+        """(words, unit) of a metric as a table names it: by its name, or in words with its unit."""
+        if metric.endswith(")") and " (" in metric:
+            text, _, unit = metric.removesuffix(")").rpartition(" (")
+            return names.plain(text), unit
+        asked = next((m for m in self.request.get("metrics", []) if names.parted(m)[0] == metric), metric)
+        return names.parted(asked)

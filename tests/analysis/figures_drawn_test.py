@@ -1,0 +1,210 @@
+"""Every figure by what is drawn: no number outside its axes and no text outside its page, nothing over
+something else, no two curves that look the same.
+
+    python3 figures_drawn_test.py SHOAL
+"""
+
+import math
+import pathlib
+import subprocess
+import sys
+import unittest
+import warnings
+
+import desk
+import matplotlib
+import matplotlib.pyplot as plt
+from figures_test import FIGURES, REPEL
+
+matplotlib.use("Agg")
+TOP = pathlib.Path(__file__).resolve().parents[2] / "analysis"
+sys.path.insert(0, str(TOP / "figures"))
+
+import made_tables  # noqa: E402
+import names  # noqa: E402
+import odd_tables  # noqa: E402
+from drawn_checks import faults, texts_of  # noqa: E402
+
+TWO_SOME = ("--set", "plan.square.rows=2", "--set", "plan.square.columns=4",  # more than there are colours
+            "--set", "faults.node_loss.every_s=50", "--set", "faults.node_loss.count=2")
+RUNS = {**{name: (name, "--set", "trial.duration_s=40", *(REPEL if "potential" in shown else ()))
+           for name, shown in FIGURES.items()},
+        "quickstart": ("redsea_square",),
+        "vehicles that are lost": ("construction_square", "--set", "trial.duration_s=300", *TWO_SOME),
+        "a single instant": ("construction_square", "--set", "trial.duration_s=10")}
+
+
+class FiguresDrawn(desk.Desk):
+    def setUp(self):
+        super().setUp()
+        sys.path.insert(1, str(pathlib.Path(desk.SHOAL).parents[1] / "python"))
+        self.addCleanup(sys.path.pop, 1)
+
+    def assert_fine(self, draw, widths=(1, 2), more=lambda figure: []):
+        import catalogue
+        import style
+        for columns in widths:
+            with self.subTest(columns=columns), style.page(columns), warnings.catch_warnings():
+                warnings.simplefilter("error")
+                figure = catalogue.drawn(draw)
+                if figure is not None:
+                    self.assertEqual([*faults(figure), *more(figure)], [])
+        return figure is not None
+
+    def succeed(self, *arguments):
+        done = self.shoal(*arguments)
+        self.assertEqual(done.returncode, 0, done.stderr)
+
+    def test_figures_of_runs(self):
+        import catalogue
+        for number, (run, arguments) in enumerate(RUNS.items()):
+            self.succeed("run", *arguments, "--no-report", "--out", str(number))
+            made = set()
+            for name, draw in catalogue.figures_of(self.desk / str(number)).items():
+                with self.subTest(run=run, figure=name):
+                    made |= {name} if self.assert_fine(draw) else set()
+            self.assertLessEqual(FIGURES.get(run, {"trajectories", "speeds", "energy", "quality"}), made)
+
+    def test_figures_of_studies_that_ship(self):
+        import of_study
+        seen = set()
+        for name in made_tables.STUDIES:
+            for table, request in self.tables_of(name):
+                if (form := form_of(table, request)) in seen:
+                    continue
+                seen.add(form)
+                with self.subTest(study=name, table=table.name):
+                    known = any(not math.isnan(x) for column in table.numbers for x in table.column(column))
+                    drawn = self.assert_fine(lambda: of_study.figure_of(table, request),
+                                             more=unsaid_difference(request))
+                    self.assertEqual(drawn, known)
+        self.assertGreater(len(seen), 30)
+
+    def tables_of(self, name):
+        text = made_tables.shortened((TOP / "studies" / f"{name}.toml").read_text())
+        self.write(f"{name}.toml", text)
+        yield from self.stored_tables(name, ("table", "comparison"), "--shard", "1/50")
+        if made_tables.needs_trials(text):
+            yield from self.stored_tables(name, ("sensitivity", "attribution"))
+
+    def stored_tables(self, name, kinds, *which):
+        from stored_study import StoredStudy
+        out = "-".join([name, *kinds])
+        self.succeed("sweep", f"{name}.toml", "--replications", "2", *which, "--out", out)
+        self.succeed("tables", out)
+        study = StoredStudy(self.desk / out)
+        for table in study.tables.values():
+            request = study.requests[table.name]
+            if request["of"] in kinds:
+                if "table" in kinds:
+                    made_tables.fill(table, request)
+                yield table, request
+
+    def test_numbers_of_every_kind_in_tables_of_every_form(self):
+        import of_study
+        from stored_study import StudyTable
+        for form in odd_tables.forms():
+            for kind, value in odd_tables.VALUES.items():
+                if form not in odd_tables.FOR_ALL and kind not in odd_tables.OF_ALL:
+                    continue
+                with self.subTest(form=form, numbers=kind):
+                    rows, request = odd_tables.forms()[form]
+                    table = StudyTable("odd", "", rows)
+                    made_tables.fill(table, request, value)
+                    self.assertTrue(self.assert_fine(lambda: of_study.figure_of(table, request),
+                                                     (1, 2) if kind == "steady" else (1,),
+                                                     unsaid_difference(request)))
+
+
+    def test_more_than_a_figure_can_show(self):
+        import of_study
+        import panels
+        import style
+        from stored_study import StudyTable
+        rows = [{"a": str(a), "b": f"b{b}", "c": f"c{c}", "energy_mean_wh": "1", "energy_mean_wh_n": "2"}
+                for a in range(3) for b in range(8) for c in range(32)]
+        for table, says in ((StudyTable("much", "", rows), "has 256 curves.* where in the request of much"),
+                            (StudyTable("much", "", rows[:256]), "has 256 rows.* where in the request of much")):
+            with style.page(1), self.assertRaisesRegex(panels.TooMuch, says):
+                of_study.figure_of(table, {"metrics": ["energy_mean_wh"]})
+            self.write("study/study.toml", '[[table]]\nname = "much"\nmetrics = ["energy_mean_wh"]\n')
+            self.write("study/tables/much.csv", "\n".join(",".join(row) for row in [
+                list(table.rows[0]), *(row.values() for row in table.rows)]) + "\n")
+            done = subprocess.run([sys.executable, "-B", TOP / "figures", "study"], cwd=self.desk, text=True,
+                                  capture_output=True, check=False)
+            self.assert_complains(done, 2, ["much has 256", "select some with where"])
+
+    def test_names_as_words(self):
+        for name, said in (("delta_theta_deg_deg", "delta theta (deg)"), ("ping_period_s", "ping period (s)"),
+                           ("heading_noise_deg_s_deg_s", "heading noise (deg/s)"), ("speed_m_s", "speed (m/s)"),
+                           ("efficiency_m_per_wh", "efficiency (m/Wh)"), ("damping_per_s_1_s", "damping (1/s)"),
+                           ("quality", "quality (m)"), ("time_to_quality_20m_s", "time to quality 20 m (s)"),
+                           ("nees_per_state", "NEES per state"), ("arrived_vehicles", "arrived vehicles")):
+            self.assertEqual(names.words(name), said)
+
+
+class Checks(unittest.TestCase):
+    """They see what they are for."""
+
+    def assert_seen(self, part, spoil):
+        """Of axes that nothing is wrong with until they are spoilt."""
+        with matplotlib.rc_context({"figure.constrained_layout.use": True}):
+            figure, axes = plt.subplots()
+            self.addCleanup(plt.close, figure)
+            axes.set_xlabel("Time (s)")
+            axes.plot([0, 1], [100, 200], label="one")
+            for spoilt in (False, True):
+                if spoilt:
+                    spoil(axes)
+                figure.draw_without_rendering()
+                found = faults(figure)
+                self.assertEqual(any(part in fault for fault in found), spoilt, found)
+
+    def test_numbers_outside_their_axes(self):
+        self.assert_seen("numbers reach", lambda axes: axes.set_ylim(0, 1))
+        self.assert_seen("numbers take", lambda axes: axes.set_ylim(90, 9000))
+        self.assert_seen("are empty", lambda axes: axes.lines[0].remove())
+
+    def test_texts_that_cannot_be_read(self):
+        self.assert_seen("is cut off", lambda axes: axes.set_ylabel("long " * 60))
+        self.assert_seen("overlap", lambda axes: axes.figure.text(0.5, 0.02, "Time again"))
+        self.assert_seen("touches another", lambda axes: axes.set_xticks(range(200), ["1000"] * 200))
+        self.assert_seen("a name of the program", lambda axes: axes.set_ylabel("energy_mean"))
+        self.assert_seen("its unit twice", lambda axes: axes.set_ylabel("Delta theta deg (deg)"))
+        self.assert_seen("no axis says", lambda axes: axes.set_xlabel(""))
+
+    def test_legends_that_do_not_help(self):
+        def pale(axes):
+            axes.plot([0, 1], [100, 200], "*", color="white", label="white")
+            axes.legend()
+
+        self.assert_seen("contrast", pale)
+        self.assert_seen("hides", lambda axes: axes.legend())
+        self.assert_seen("covers another", lambda axes: [axes.figure.legend(axes.lines, [a]) for a in "ab"])
+        self.assert_seen("have 1 looks", lambda axes: axes.plot([0, 1], [100, 150], color="C0", label="two"))
+        self.assert_seen("same twice", lambda axes: axes.figure.legend([*axes.lines] * 2, ["one", "one"]))
+
+
+def form_of(table, request):
+    """Figures of two tables with the same form differ in their numbers."""
+    named = ("of", "columns", "against", "metrics", "statistic")
+    return (tuple(table.labels), len(table.numbers), len(table.rows), *(str(request.get(n)) for n in named))
+
+
+def unsaid_difference(request):
+    """A check that a comparison says of what its numbers are differences, and shows where there is none."""
+    def check(figure):
+        if request.get("of") != "comparison":
+            return
+        said = [" ".join(text.get_text().split()) for text in texts_of(figure)]
+        if not any("difference from" in text for text in said):
+            yield "no axis says that it shows differences"
+        for axes in figure.axes:
+            if not any(0 in line.get_xdata() or 0 in line.get_ydata() for line in axes.lines if len(
+                    line.get_xdata()) == 2 and line.get_transform() != axes.transData):
+                yield "nothing shows where there is no difference"
+    return check
+
+
+if __name__ == "__main__":
+    desk.main()

@@ -1,0 +1,99 @@
+"""A table of each form that `shoal tables` writes, for numbers of every kind."""
+
+import itertools
+
+from made_tables import steady
+
+LEVELS = {"behaviour": ["rigid_registration", "assignment_registration", "pairwise_referencing"],
+          "settings": ["text", "program"],
+          "a_factor_with_a_long_name": ["a level whose name takes more than the half of a column to say",
+                                        "averylongnamewithoutanyblankinwhichitcouldbebrokenintolines", "-"],
+          "ping_period": ["5", "15", "30", "60", "120"],
+          "delta_theta_deg_deg": ["2", "5", "10", "45", "90"],
+          "weight": ["0.001", "0.1", "1", "100"],
+          "group": ["construction", "redsea", "vortex", "channels"]}
+FACTORS = {**{name: (levels, "") for name, levels in LEVELS.items()},
+           "ping_period": (LEVELS["ping_period"], "period_s"),
+           "delta_theta_deg": (LEVELS["delta_theta_deg_deg"], "delta_theta_deg")}
+HEADINGS = ["energy mean (Wh)", "quality settled (m)"]
+
+
+def request(of="table", **asked):
+    return {"name": "odd", "of": of, "factors": FACTORS, **asked}
+
+
+def crossed(*factors):
+    return [dict(zip(factors, levels)) for levels in itertools.product(*(LEVELS[f] for f in factors))]
+
+
+def cells(rows, columns, asked):
+    """Rows without numbers, of a request that names its metrics; fill() gives them some."""
+    metrics = asked.get("metrics") or asked["series"]
+    names = ["_".join([*levels.values(), metric]) for levels in crossed(*columns) for metric in metrics]
+    return [{**row, **{name + end: "2" for name in names for end in ("", "_n")}} for row in rows], asked
+
+
+def indices(rows, names):
+    return [{**row, **{name: "" for name in names}} for row in rows], {"name": "odd", "metrics": [
+        "energy_mean_wh", "quality_settled_m"]}
+
+
+def of_metrics(rows):
+    return [{"metric": heading, **row} for heading in HEADINGS for row in rows]
+
+
+def forms():
+    """name -> (rows, request)."""
+    sampled = [{"factor": name} for name in ("ping_period", "bearing_noise", "drifting_radius")]
+    changes = [{"factor": "own_weight", "from": "1", "to": "0.1"},
+               {"factor": "planned", "from": "always", "to": "per ping"}, {"factor": "all", "from": "", "to": ""}]
+    metrics = ["energy_mean_wh", "quality_settled_m"]
+    return {
+        "curves": cells(crossed("behaviour", "delta_theta_deg_deg"), ("settings",),
+                        request(columns=["settings"], metrics=metrics)),
+        "24 curves": cells(crossed("group", "behaviour", "settings"), ("ping_period",),
+                           request(columns=["ping_period"], metrics=metrics[:1])),
+        "curves of wide steps": cells(crossed("behaviour"), ("weight",),
+                                      request(columns=["weight"], metrics=metrics[:1])),
+        "series": cells([{"time_s": "0"}], ("behaviour", "settings"),
+                        request(columns=["behaviour", "settings"], series=["quality"], every=300)),
+        "rows": cells(crossed("group", "a_factor_with_a_long_name"), ("behaviour",),
+                      request(columns=["behaviour"], metrics=[*metrics, "nees_per_state"],
+                              statistic="mean [min, max]")),
+        "one row": cells(crossed("settings")[:1], (), request(metrics=metrics)),
+        "one trial": cells([{"time_s": "0"}], (), request(series=["quality"], every=1)),
+        "differences of a number": (
+            [{"group": g["group"], "metric": m, "delta_theta_deg": d["delta_theta_deg_deg"], "difference": "",
+              "difference_n": "2"} for m in HEADINGS for g in crossed("group")
+             for d in crossed("delta_theta_deg_deg") if d["delta_theta_deg_deg"] != "10"],
+            request("comparison", factor="delta_theta_deg", reference="10", metrics=metrics)),
+        "differences of names": (
+            [{**row, "metric": m, "behaviour": "rigid_registration", "difference": "", "difference_n": "2"}
+             for m in HEADINGS for row in crossed("group", "settings")],
+            request("comparison", factor="behaviour", reference="pairwise_referencing", metrics=metrics)),
+        "indices": indices(of_metrics(sampled), ("first_order", "first_order_low", "first_order_high", "total")),
+        "effects": indices(of_metrics(sampled), ("mu", "mu_star", "sigma")),
+        "pairs": indices(of_metrics([{"factor": a["factor"], "and_factor": b["factor"]} for a, b
+                                     in itertools.combinations(sampled, 2)]), ("second_order",)),
+        "convergence": indices(of_metrics([{**row, "base_samples": str(2 ** k)} for row in sampled
+                                           for k in range(3, 8)]), ("first_order", "total")),
+        "changes": indices(of_metrics(changes), ("share", "share_low", "share_high", "alone", "last")),
+    }
+
+
+VALUES = {
+    "steady": steady,
+    "equal": lambda k: 5.0,
+    "nothing": lambda k: 0.0,
+    "huge": lambda k: 1e12 * steady(k),
+    "tiny": lambda k: 1e-9 * steady(k),
+    "nearly equal": lambda k: 1e6 + 1e-3 * steady(k),
+    "below zero": lambda k: -1e4 * steady(k),
+    "of both signs": lambda k: steady(k) - 10.0,
+    "one far away": lambda k: 1e6 if k == 3 else steady(k),
+    "with gaps": lambda k: None if k % 3 else steady(k),
+    "one alone": lambda k: steady(k) if k in (0, 5) else None,
+}
+# To draw all forms with all numbers would take a minute: these stand for the others.
+FOR_ALL = {"curves", "rows", "differences of names", "changes"}
+OF_ALL = {"steady", "equal", "with gaps", "one alone"}
