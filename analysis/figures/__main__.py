@@ -31,9 +31,10 @@ class Parser(argparse.ArgumentParser):
 def main():
     parser = Parser(prog="shoal figures", description=__doc__)
     parser.add_argument("what", type=pathlib.Path,
-                        help="folder of shoal run or shoal sweep, or a file of performance profiles")
+                        help="folder of shoal run or shoal sweep, or file of performance profiles")
     parser.add_argument("--only", nargs="+", metavar="FIGURE",
-                        help="some of them: tables of a study, or, of a run, " + ", ".join(catalogue.FIGURES))
+                        help="some of them: tables of a study, or, of a run, "
+                        + ", ".join(catalogue.FIGURES))
     parser.add_argument("--columns", type=int, choices=(1, 2), default=1,
                         help="width, in columns of a paper (default: 1)")
     parser.add_argument("--out", type=pathlib.Path, help="default: figures in or beside it")

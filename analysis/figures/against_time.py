@@ -38,8 +38,8 @@ def speeds(run):
     figure, (axes,), clock = time_axes(run)
     axes.set_ylabel("Speed (m/s)")
     if speed.shape[1] <= MANY:
-        lines = [style.curve(axes, clock(run.time_s), speed[:, vehicle], vehicle, label=f"{vehicle + 1}")
-                 for vehicle in range(speed.shape[1])]
+        lines = [style.curve(axes, clock(run.time_s), own, vehicle, label=f"{vehicle + 1}")
+                 for vehicle, own in enumerate(speed.T)]
         legends.legend_above(figure, lines, "Vehicle")
     else:
         envelope(axes, *coarse(clock(run.time_s), speed))
@@ -48,8 +48,8 @@ def speeds(run):
 
 
 def coarse(time, values):
-    """Instants, and the least, mean and greatest of all vehicles: of each instant, or of equal parts of
-    the time if there are many."""
+    """Instants, and the least, mean and greatest of all vehicles: of each instant, or of equal
+    parts of the time if there are many."""
     parts = numpy.array_split(numpy.arange(len(time)), min(len(time), INSTANTS))
     values = numpy.ma.masked_invalid(values)  # of vehicles that were lost
     return (numpy.array([time[part].mean() for part in parts]),
@@ -98,8 +98,8 @@ def of_series(run, name, label):
 
 
 def energy_by_distance(run):
-    """Mean of the vehicles and their range, against the path of the swarm: Rypkema 2015, figures 5.73
-    ff."""
+    """Mean of the vehicles and their range, against the path of the swarm: Rypkema 2015, figures
+    5.73 ff."""
     path = run.series("centroid_path_m")
     mean, least, greatest = (run.series(f"energy_{of}_wh") for of in ("mean", "min", "max"))
     if path is None or mean is None or len(path[1]) != len(mean[1]):
@@ -128,8 +128,8 @@ def thrust(run):
 
 
 def passage(run):
-    """On the way: the error of the distances in the formation, the distance of the closest pair, and
-    of the closest vehicle and obstacle."""
+    """On the way: the error of the distances in the formation, the distance of the closest pair,
+    and of the closest vehicle and obstacle."""
     shown = [(run.series(name), label) for name, label in
              (("cell_error_m", "Error (m)"), ("separation_m", "Pair (m)"),
               ("clearance_m", "Obstacle (m)"))]

@@ -11,7 +11,7 @@ import profiles
 from recorded_run import NoRun, RecordedRun
 from stored_study import StoredStudy
 
-# Of a run, in the order in which they are made: name -> how, or nothing where the run has none of it.
+# Of a run, in the order in which they are made: name -> how, or nothing where a run has none of it.
 FIGURES = {
     "trajectories": over_ground.trajectories,
     "basin": over_ground.basin,
@@ -36,7 +36,7 @@ def figures_of(place):
         return {place.stem: lambda rows=profile_rows(place): profiles.profiles(rows)}
     if (place / "study.toml").is_file():
         study = StoredStudy(place)
-        return {name: lambda table=table: of_study.figure_of(table, study.requests.get(table.name, {}))
+        return {name: lambda table=table: of_study.figure_of(table, study.request_of(table))
                 for name, table in study.tables.items()}
     run = RecordedRun(place)
     if not of_models.shoal:

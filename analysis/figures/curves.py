@@ -16,8 +16,8 @@ WIDE = 50  # times the least number is the greatest of an axis that is logarithm
 
 
 def axis_of(numbers, request):
-    """The factor of numbers that curves are drawn against: the last of the rows, else of the columns;
-    nothing where most curves would be points."""
+    """The factor of numbers that curves are drawn against: the last of the rows, else of the
+    columns; nothing where most curves would be points."""
     known = [number for number in numbers if number.known]
     in_columns = request.get("columns", [])
     factors = [f for f in (known[0].levels if known else ()) if f not in in_columns]
@@ -32,8 +32,8 @@ def axis_of(numbers, request):
 
 
 def parted(known, against, name):
-    """The factors whose levels have panels of their own: as few panels as leave no more curves in each
-    than can be told apart."""
+    """The factors whose levels have panels of their own: as few panels as leave no more curves in
+    each than can be told apart."""
     levels = {}
     for number in known:
         for factor, level in number.levels.items():
@@ -49,8 +49,9 @@ def parted(known, against, name):
         if choices:
             return min(choices)[1]
     curves = len({without(number, {against}) for number in known})
-    raise panels.TooMuch(f"{name} has {curves} curves, and a figure shows {MOST} in each of at most "
-                         f"{panels.MOST} panels; select some with where in the request of {name}")
+    raise panels.TooMuch(f"{name} has {curves} curves, and a figure shows {MOST} in each of at "
+                         f"most {panels.MOST} panels; select some with where in the request of "
+                         f"{name}")
 
 
 def curves(numbers, wording, against, name, of_metric):
@@ -110,6 +111,6 @@ def draw(ax, own, against, k, label):
     line = style.curve(ax, x, [number.value for number in own], k, label=label or None)
     trials = [(place, each) for place, number in zip(x, own) for each in number.trials]
     if trials:
-        ax.plot(*zip(*trials), "o", color=style.colour(k), markersize=2.2, alpha=0.3, markeredgewidth=0)
+        style.trials(ax, *zip(*trials), k)
     style.band(ax, x, [number.low for number in own], [number.high for number in own], k)
     return line

@@ -19,12 +19,13 @@ def width_in(text, size):
 
 @functools.lru_cache(maxsize=None)
 def line_width_in(line, size):
-    return text_to_path.get_text_width_height_descent(line, FontProperties(size=size), ismath=False)[0] / 72
+    font = FontProperties(size=size)
+    return text_to_path.get_text_width_height_descent(line, font, ismath=False)[0] / 72
 
 
 def wrapped(text, inches, size):
-    """In lines of at most that width, broken at commas if their parts fit, and within a word only where
-    it alone is wider."""
+    """In lines of at most that width, broken at commas if their parts fit, and within a word only
+    where it alone is wider."""
     text = " ".join(text.split())
     if width_in(text, size) <= inches:
         return text
@@ -43,7 +44,8 @@ def wrapped(text, inches, size):
 
 
 def heighten(figure, axes=0.0, strip=0.0):
-    """By inches that are room for its axes, and by those of a strip above, which axes leave alone."""
+    """By inches that are room for its axes, and by those of a strip above, which axes leave
+    alone."""
     layout = figure.get_layout_engine()
     below = figure.get_figheight() * layout.get()["rect"][3] + axes
     height = figure.get_figheight() + axes + strip
@@ -52,11 +54,12 @@ def heighten(figure, axes=0.0, strip=0.0):
 
 
 def labels_of(axes):
-    """(label, the inches it may take, the power of ten that ticks leave to it) of an axes as it stands."""
+    """(label, the inches it may take, the power of ten that ticks leave to it) of an axes as it
+    stands."""
     box = axes.get_window_extent()
     across, down = box.width / axes.figure.dpi, box.height / axes.figure.dpi
-    return [(axes.xaxis.label, across, power_of(axes.xaxis)), (axes.yaxis.label, down, power_of(axes.yaxis)),
-            (axes.title, across, "")]
+    return [(axes.xaxis.label, across, power_of(axes.xaxis)),
+            (axes.yaxis.label, down, power_of(axes.yaxis)), (axes.title, across, "")]
 
 
 def power_of(axis):
@@ -69,12 +72,13 @@ def with_power(text, power):
     """`Energy (1e6 Wh)`, `Share (1e-6)`."""
     if not power or not text:
         return text
-    return text.replace("(", f"({power} ") if text.endswith(")") else f"{text} ({power})"
+    name, _, unit = text.rpartition("(")
+    return f"{name}({power} {unit}" if text.endswith(")") else f"{text} ({power})"
 
 
 def fit(figure):
-    """Wraps the labels of axes, takes ticks of numbers away, and makes room for names of rows, until no
-    text needs the room of another: each change moves what the next is measured by."""
+    """Wraps the labels of axes, takes ticks of numbers away, and makes room for names of rows,
+    until no text needs the room of another: each change moves what the next is measured by."""
     whole = {}
     for _ in range(ROUNDS):
         figure.draw_without_rendering()

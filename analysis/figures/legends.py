@@ -13,6 +13,7 @@ def legend_above(figure, handles, title=None):
     size = matplotlib.rcParams["legend.fontsize"]
     for handle in handles:
         handle.set_label(fitting.wrapped(handle.get_label(), width - 0.5, size))
+    title = title and fitting.wrapped(title, width, size)
     for rows in range(1, len(handles) + 1):
         legend = figure.legend(handles=handles, title=title, ncol=-(-len(handles) // rows),
                                loc="upper center", borderaxespad=0.3)

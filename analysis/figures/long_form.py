@@ -1,4 +1,5 @@
-"""A table of a study as one row a number, wherever its request put factors: in rows or in columns."""
+"""A table of a study as one row a number, wherever its request put factors: in rows or in
+columns."""
 
 import dataclasses
 import itertools
@@ -77,7 +78,7 @@ def by_metric(numbers):
 
 def without(number, factors):
     """Its levels of all other factors, as a key."""
-    return tuple((factor, level) for factor, level in number.levels.items() if factor not in factors)
+    return number.key(factor for factor in number.levels if factor not in factors)
 
 
 class Wording:
@@ -107,7 +108,8 @@ class Wording:
         return f"{text} {level} {unit}" if full else f"{level} {unit}"
 
     def levels(self, key, full=False):
-        """Of factors that do not apply there is nothing to say; a dash, as in tables, if none does."""
+        """Of factors that do not apply there is nothing to say; a dash, as in tables, if none
+        does."""
         texts = [self.level(*part, full) for part in key if part[1]]
         return ", ".join(texts) or ("-" if any(factor != UNNAMED for factor, _ in key) else "")
 
@@ -142,5 +144,5 @@ class Wording:
         if metric.endswith(")") and " (" in metric:
             text, _, unit = metric.removesuffix(")").rpartition(" (")
             return names.plain(text), unit
-        asked = next((m for m in self.request.get("metrics", []) if names.parted(m)[0] == metric), metric)
-        return names.parted(asked)
+        asked = [m for m in self.request.get("metrics", []) if names.parted(m)[0] == metric]
+        return names.parted(asked[0] if asked else metric)

@@ -2,15 +2,17 @@
 
 import re
 
-UNITS = ("s", "h", "m", "deg", "rad", "kg", "N", "J", "W", "Wh", "Hz", "%", "m/s", "m/s2", "m/h", "m/Wh",
-         "m2/s", "m2/s2", "deg/s", "deg/m", "rad/s", "s/m", "1/m", "1/m2", "1/s", "%/deg", "% s/deg")
+UNITS = ("s", "h", "m", "deg", "rad", "kg", "N", "J", "W", "Wh", "Hz", "%", "m/s", "m/s2", "m/h",
+         "m/Wh", "m2/s", "m2/s2", "deg/s", "deg/m", "rad/s", "s/m", "1/m", "1/m2", "1/s", "%/deg",
+         "% s/deg")
 # The one measure against time whose name does not end with its unit.
 OTHERWISE = {"quality": "m"}
 CAPITALS = {"nees": "NEES", "rms": "RMS", "nps": "NPS", "auv": "AUV"}
 
 
 def spellings(unit):
-    """How names end that have this unit: `_m_per_wh` or `_m_wh` of m/Wh, `_per_s` or `_1_s` of 1/s."""
+    """How names end that have this unit: `_m_per_wh` or `_m_wh` of m/Wh, `_per_s` or `_1_s` of
+    1/s."""
     text = unit.lower().replace("%", "percent").replace(" ", "_")
     return {"_" + text.replace("/", "_"), "_" + text.replace("/", "_per_").removeprefix("1_")}
 
@@ -21,8 +23,8 @@ ENDINGS = sorted(((ending, unit) for unit in UNITS for ending in spellings(unit)
 
 
 def parted(name):
-    """(words, unit) of a name, whose unit may stand in it twice: a factor is called after its option,
-    and a table adds the unit to that."""
+    """(words, unit) of a name, whose unit may stand in it twice: a factor is called after its
+    option, and a table adds the unit to that."""
     unit = OTHERWISE.get(name, "")
     ending = next((e for e in ENDINGS if name.endswith(e[0])), None)
     if ending:

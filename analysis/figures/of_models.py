@@ -31,8 +31,8 @@ def attraction_repulsion(run):
 
 
 def potential(run):
-    """The pair potential, its slope and its curvature: Rypkema 2015, figure 3.6 (which draws the slope
-    below)."""
+    """The pair potential, its slope and its curvature: Rypkema 2015, figure 3.6 (which draws the
+    slope below)."""
     options = attraction_repulsion(run)
     if options is None:
         return None
@@ -41,7 +41,8 @@ def potential(run):
     law = shoal.potential(kind, **options["potential"].get(kind, {}))
     figure, axes = plt.subplots(3, 1, sharex=True)
     figure.set_figheight(1.6 * figure.get_figheight())
-    for ax, values, label in zip(axes, law.derivatives(r, s), ("Value", "Slope (1/m)", "Curvature (1/m²)")):
+    labels = ("Value", "Slope (1/m)", "Curvature (1/m²)")
+    for ax, values, label in zip(axes, law.derivatives(r, s), labels):
         ax.plot(r, values, color=style.COLOURS[0])
         ax.axvline(s, color=style.GROUND, linewidth=0.8, zorder=0)
         ax.set_ylabel(label)
@@ -52,8 +53,8 @@ def potential(run):
 
 
 def cost_surface(run):
-    """The cost that the first vehicle meets at the end of the run, by where it would go, and where it is
-    told to go: Rypkema 2015, figure 3.7."""
+    """The cost that the first vehicle meets at the end of the run, by where it would go, and where
+    it is told to go: Rypkema 2015, figure 3.7."""
     options = attraction_repulsion(run)
     if options is None:
         return None
@@ -81,7 +82,8 @@ def cost_surface(run):
     near = numpy.abs(neighbours).max(axis=1) <= reach
     target = shoal.solve(problem).x
     # White for the dark middle of the surface, edged with black for the paper behind a legend.
-    edged = {"linestyle": "none", "markeredgecolor": "black", "markeredgewidth": 0.7, "clip_on": False}
+    edged = {"linestyle": "none", "markeredgecolor": "black", "markeredgewidth": 0.7,
+             "clip_on": False}
     marks = [*axes.plot(*neighbours[near].T, "o", color=style.COLOURS[1], markersize=4.5,
                         label="neighbours", **edged),
              *axes.plot(0, 0, "X", color="white", markersize=6, label="vehicle", **edged),
@@ -94,8 +96,8 @@ def cost_surface(run):
 
 
 def filter_lag(run):
-    """What the ping filter makes of a neighbour's range from the first vehicle, with noise drawn anew:
-    Rypkema 2015, figure 3.5. The neighbour is the one that is never far."""
+    """What the ping filter makes of a neighbour's range from the first vehicle, with noise drawn
+    anew: Rypkema 2015, figure 3.5. The neighbour is the one that is never far."""
     x, y = run.by_vehicle("x"), run.by_vehicle("y")
     if shoal is None or x.shape[1] < 2:
         return None
@@ -115,8 +117,10 @@ def filter_lag(run):
         if not distance <= ping["range_m"]:
             continue
         heard = max(0.0, distance + noise.normal(0, ping["range_sd_m"]))
-        bearing = math.atan2(offset[1], offset[0]) + math.radians(noise.normal(0, ping["bearing_sd_deg"]))
-        tracks.receive(shoal.Ping(time_s=time, range_m=heard, bearing_rad=bearing, slot=1), place[0])
+        error = math.radians(noise.normal(0, ping["bearing_sd_deg"]))
+        bearing = math.atan2(offset[1], offset[0]) + error
+        tracks.receive(shoal.Ping(time_s=time, range_m=heard, bearing_rad=bearing, slot=1),
+                       place[0])
         times.append(time)
         actual.append(distance)
         measured.append(heard)
@@ -125,8 +129,9 @@ def filter_lag(run):
         return None
     figure, axes = plt.subplots()
     clock = numpy.array(times) / (3600 if last > 3600 else 1)
-    marks = [*axes.plot(clock, measured, ".", color=style.COLOURS[5], markersize=3, label="measured"),
-             style.curve(axes, clock, actual, color="black", linestyle="-", marker="", label="actual"),
+    marks = [*axes.plot(clock, measured, ".", color=style.COLOURS[5], markersize=3,
+                        label="measured"),
+             style.curve(axes, clock, actual, color="black", marker="", label="actual"),
              style.curve(axes, clock, filtered, 1, marker="", label="filtered")]
     axes.set_xlabel("Time (h)" if last > 3600 else "Time (s)")
     axes.set_ylabel("Range of a neighbour (m)")

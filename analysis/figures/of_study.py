@@ -7,8 +7,9 @@ from long_form import UNNAMED, Number, Wording, numbers_of
 
 
 def figure_of(table, request):
-    """Curves with envelopes against time or another series, and against a factor of numbers; bars for
-    the indices of a sensitivity; else points with their intervals. Nothing for an empty table."""
+    """Curves with envelopes against time or another series, and against a factor of numbers; bars
+    for the indices of a sensitivity; else points with their intervals. Nothing for an empty
+    table."""
     if not table.rows or not table.numbers:
         return None
     wording = Wording(request)
@@ -34,7 +35,8 @@ def of_indices(table, wording):
 
 
 def factors(row):
-    return " and ".join(names.words(row[label]) for label in ("factor", "and_factor") if label in row)
+    return " and ".join(names.words(row[label]) for label in ("factor", "and_factor")
+                        if label in row)
 
 
 def change(row):

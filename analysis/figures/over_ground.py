@@ -13,8 +13,8 @@ MANY = 50  # vehicles whose marks would hide their paths
 
 
 def plane(run, x, y):
-    """Axes in metres that hold these places, with obstacles and way-point; the mark of that, if there
-    is one."""
+    """Axes in metres that hold these places, with obstacles and way-point; the mark of that, if
+    there is one."""
     figure, axes = plt.subplots()
     axes.set_xlabel("East (m)")
     axes.set_ylabel("North (m)")
@@ -75,8 +75,9 @@ def trajectories(run):
     east, north, lost = run.ends()
     for some, mark, label in ((~lost, "o", "end"), (lost, "s", "lost")):
         if some.any():
-            marks += axes.plot(east[some], north[some], mark, color=style.COLOURS[1], markersize=size,
-                               fillstyle="none", markeredgewidth=0.2 * size, label=label, zorder=3)
+            marks += axes.plot(east[some], north[some], mark, color=style.COLOURS[1],
+                               markersize=size, fillstyle="none", markeredgewidth=0.2 * size,
+                               label=label, zorder=3)
     legends.legend_above(figure, marks)
     return figure
 
@@ -92,8 +93,8 @@ def basin(run):
     for some, mark, colour, label in ((arrived, ".", style.COLOURS[5], "arrives"),
                                       (~arrived, "s", style.COLOURS[1], "never arrives")):
         if some.any():
-            marks += axes.plot(x[0, some], y[0, some], mark, color=colour, markersize=3, label=label,
-                               zorder=3)
+            marks += axes.plot(x[0, some], y[0, some], mark, color=colour, markersize=3,
+                               label=label, zorder=3)
     for vehicle in numpy.flatnonzero(~arrived):
         axes.plot(x[:, vehicle], y[:, vehicle], color=style.COLOURS[1], linewidth=0.4, zorder=2)
     legends.legend_above(figure, marks)

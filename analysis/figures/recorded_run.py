@@ -34,7 +34,8 @@ class RecordedRun:
             self._dimensions[name] = variable.dimensions
             if variable.dtype.kind in "fiu":
                 values = variable[:]
-                self._values[name] = values.filled(math.nan) if hasattr(values, "filled") else values
+                masked = hasattr(values, "filled")
+                self._values[name] = values.filled(math.nan) if masked else values
 
     def by_vehicle(self, name):
         """A recorded number: rows are instants, columns vehicles."""

@@ -38,8 +38,8 @@ def panel_grid(metrics, rows, series):
 
 def require_few(rows, name):
     if rows > MOST:
-        raise panels.TooMuch(f"{name} has {rows} rows, and a figure shows at most {MOST}; select some "
-                             f"with where in the request of {name}, or pool factors")
+        raise panels.TooMuch(f"{name} has {rows} rows, and a figure shows at most {MOST}; select "
+                             f"some with where in the request of {name}, or pool factors")
 
 
 def apart(numbers, columns):
@@ -98,16 +98,16 @@ def offset(k, count):
 
 def marks(ax, own, places, k, label):
     for number, place in zip(own, places):
-        ax.plot(number.trials, [place] * len(number.trials), "o", color=style.colour(k), markersize=2.2,
-                alpha=0.3, markeredgewidth=0)
-    ax.hlines(places, [n.low for n in own], [n.high for n in own], color=style.colour(k), linewidth=0.9)
+        style.trials(ax, number.trials, [place] * len(number.trials), k)
+    ax.hlines(places, [n.low for n in own], [n.high for n in own], color=style.colour(k),
+              linewidth=0.9)
     return ax.plot([n.value for n in own], places, linestyle="none", color=style.colour(k),
                    marker=style.MARKERS[k], markersize=3, label=label or None)[0]
 
 
 def bars(table, wording, axis, name_of):
-    """First-order and total indices, those of pairs, Morris' mu* and sigma, or shares of a difference,
-    with their intervals."""
+    """First-order and total indices, those of pairs, Morris' mu* and sigma, or shares of a
+    difference, with their intervals."""
     values = {column: table.column(column) for column in table.numbers}
     metrics = list(dict.fromkeys(row["metric"] for row in table.rows))
     inside = {m: [i for i, row in enumerate(table.rows) if row["metric"] == m] for m in metrics}

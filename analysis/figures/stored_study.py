@@ -1,6 +1,7 @@
 """What a folder of `shoal sweep` holds for figures: its tables, as `shoal tables` wrote them."""
 
 import csv
+import itertools
 import math
 import tomllib
 
@@ -8,7 +9,7 @@ from recorded_run import NoRun
 
 # What tables say besides their numbers, and what has a look of its own.
 NO_NUMBERS = {"claims"}
-# Of few trials, sensitivities and attributions have no intervals by which their numbers would be known.
+# Of few trials, sensitivities and attributions have no intervals that would tell their numbers.
 INDICES = {"first_order", "total", "second_order", "mu_star", "sigma", "share", "alone", "last"}
 
 
@@ -19,7 +20,8 @@ class StudyTable:
         self.name, self.caption, self.rows = name, caption, rows
         header = list(rows[0]) if rows else []
         known = INDICES if {"metric", "factor"} <= set(header) else set()
-        self.numbers = [c for c in header if c + "_n" in header or c + "_low" in header or c in known]
+        self.numbers = [c for c in header
+                        if c + "_n" in header or c + "_low" in header or c in known]
         # What says of which row it is stands before all numbers.
         self.labels = header[:header.index(self.numbers[0])] if self.numbers else header
 
@@ -34,8 +36,9 @@ class StudyTable:
                 by = [0.0 if math.isnan(b) else b for b in self.column(name + ending)]
                 return [v - b for v, b in zip(values, by)], [v + b for v, b in zip(values, by)]
         if name + "_low" in self.rows[0]:
-            return tuple([v if math.isnan(b) else b for v, b in zip(values, self.column(name + end))]
-                         for end in ("_low", "_high"))
+            return tuple([v if math.isnan(b) else b
+                          for v, b in zip(values, self.column(name + ending))]
+                         for ending in ("_low", "_high"))
         return values, values
 
     def each(self, name):
@@ -71,6 +74,10 @@ class StoredStudy:
                 caption = self.requests.get(name, {}).get("caption", name)
                 self.tables[name] = StudyTable(name, caption, rows)
 
+    def request_of(self, table):
+        """What a table answers; nothing of the usual one of a study that asks for none."""
+        return self.requests.get(table.name, {})
+
 
 def requests_of(study):
     """name -> what was asked for, of which kind, and with which factors of the study."""
@@ -80,7 +87,8 @@ def requests_of(study):
             asked = {**request, "of": kind, "factors": factors_of(study)}
             requests[request["name"]] = asked
             if kind == "sensitivity":
-                requests |= {request["name"] + part: asked for part in ("_second_order", "_convergence")}
+                requests |= {request["name"] + part: asked
+                             for part in ("_second_order", "_convergence")}
     return requests
 
 
@@ -88,7 +96,7 @@ def factors_of(study):
     """name -> (its levels, the option that it sets, if that is one)."""
     groups = study.get("group", [])
     factors = {"group": ([group.get("name", "") for group in groups], "")}
-    for factor in [*study.get("factor", []), *(f for group in groups for f in group.get("factor", []))]:
+    for factor in itertools.chain(*(part.get("factor", []) for part in (study, *groups))):
         key = factor.get("key", "").rpartition(".")[2]
         levels, _ = factors.setdefault(factor.get("name", key), ([], key))
         own = [level["label"] for level in factor.get("level", [])] or factor.get("values", [])

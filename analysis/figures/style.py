@@ -55,9 +55,9 @@ def shade(k):
 
 
 def curve(axes, x, y, k=0, **look):
-    """The k-th curve of an axes. Of few points each is marked; of many, those without neighbours, of
-    which nothing would be seen otherwise. Marks shrink from curve to curve, so that one does not hide
-    another where both are equal."""
+    """The k-th curve of an axes. Of few points each is marked; of many, those without neighbours,
+    of which nothing would be seen otherwise. Marks shrink from curve to curve, so that one does not
+    hide another where both are equal."""
     x, y = numpy.asarray(x, dtype=float), numpy.asarray(y, dtype=float)
     known = numpy.isfinite(y)
     alone = known & ~numpy.append(False, known[:-1]) & ~numpy.append(known[1:], False)
@@ -66,8 +66,14 @@ def curve(axes, x, y, k=0, **look):
         marks = {"marker": MARKERS[k % len(MARKERS)], "markersize": 3.8 - 0.3 * (k % len(MARKERS))}
     elif alone.any():
         marks = {"marker": "o", "markersize": 1.5, "markevery": numpy.flatnonzero(alone).tolist()}
-    look = {"color": colour(k), "linestyle": DASHES[k % len(DASHES)], "clip_on": False, **marks, **look}
+    look = {"color": colour(k), "linestyle": DASHES[k % len(DASHES)], "clip_on": False,
+            **marks, **look}
     return axes.plot(x, y, **look)[0]
+
+
+def trials(axes, x, y, k):
+    """What is behind the k-th mark or curve of an axes."""
+    axes.plot(x, y, "o", color=colour(k), markersize=2.2, alpha=0.3, markeredgewidth=0)
 
 
 def band(axes, x, low, high, k=0, **look):
