@@ -11,6 +11,7 @@ import matplotlib.ticker
 import numpy
 
 LEAST_SHARE = 0.2  # of an axis, that its numbers take
+MOST_CURVES = 8  # of one axes
 LEAST_CONTRAST = 3.0  # WCAG 2.1, criterion 1.4.11
 ROUNDING_PX = 1.0
 APART_PX = 2.0  # of 100 an inch: labels of ticks that are nearer read as one
@@ -60,15 +61,18 @@ def data_out_of_view(figure):
         for k, axis in enumerate((axes.xaxis, axes.yaxis)):
             values = numpy.concatenate([points_of(each)[:, k] for each in together("xy"[k], axes)])
             own = places(axis, values)
-            if own.min() < -1e-6 or own.max() > 1 + 1e-6:
-                yield f"numbers reach from {own.min():.3g} to {own.max():.3g} of an axis ({axis.get_label_text()})"
-            if numpy.ptp(values) > 1e-9 * numpy.abs(values).max() and taken(axis, own) < LEAST_SHARE:
-                yield f"numbers take {taken(axis, own):.3g} of an axis ({axis.get_label_text()})"
+            low, high, share = own.min(), own.max(), taken(axis, own)
+            of_axis = f"of an axis ({axis.get_label_text()})"
+            if low < -1e-6 or high > 1 + 1e-6:
+                yield f"numbers reach from {low:.3g} to {high:.3g} {of_axis}"
+            differ = numpy.ptp(values) > 1e-9 * numpy.abs(values).max()
+            if differ and share < LEAST_SHARE:
+                yield f"numbers take {share:.3g} {of_axis}"
 
 
 def taken(axis, own):
-    """The share of an axis between its numbers; of one that shows zero, from there: what is small is to
-    look small. An axis of names is as long as they are many."""
+    """The share of an axis between its numbers; of one that shows zero, from there: what is small
+    is to look small. An axis of names is as long as they are many."""
     if isinstance(axis.get_major_locator(), matplotlib.ticker.FixedLocator):
         return 1.0
     low, high = sorted(axis.get_view_interval())
@@ -93,7 +97,8 @@ def texts_of(figure):
             shown |= {label for tick in ticks_of(axis) for label in (tick.label1, tick.label2)}
     keys = [key.text for key in figure.findobj(matplotlib.quiver.QuiverKey)]
     return [text for text in [*figure.findobj(matplotlib.text.Text), *keys]
-            if text.get_visible() and text.get_text().strip() and (text not in of_ticks or text in shown)]
+            if text.get_visible() and text.get_text().strip()
+            and (text not in of_ticks or text in shown)]
 
 
 def box_of(artist):
@@ -119,7 +124,8 @@ def texts_on_texts(figure):
 
 def ticks_in_one(figure):
     for axis in (axis for axes in figure.axes for axis in (axes.xaxis, axes.yaxis)):
-        labels = [tick.label1 for tick in ticks_of(axis) if tick.label1.get_visible() and tick.label1.get_text()]
+        labels = [tick.label1 for tick in ticks_of(axis)
+                  if tick.label1.get_visible() and tick.label1.get_text()]
         boxes = [box_of(label).padded(0.5 * APART_PX) for label in labels]
         for k, box in enumerate(boxes):
             if any(box.overlaps(other) for other in boxes[k + 1:]):
@@ -142,8 +148,8 @@ def legends_in_the_way(figure):
 
 def luminance(colour):
     """WCAG 2.1, relative luminance; of a colour on white paper."""
-    red_green_blue, alpha = numpy.array(matplotlib.colors.to_rgb(colour)), matplotlib.colors.to_rgba(colour)[3]
-    seen = alpha * red_green_blue + (1 - alpha)
+    *red_green_blue, alpha = matplotlib.colors.to_rgba(colour)
+    seen = alpha * numpy.array(red_green_blue) + (1 - alpha)
     linear = numpy.where(seen <= 0.03928, seen / 12.92, ((seen + 0.055) / 1.055) ** 2.4)
     return linear @ (0.2126, 0.7152, 0.0722)
 
@@ -177,6 +183,8 @@ def same_looks(figure):
         looks = [look_of(line) for line in axes.lines if not line.get_label().startswith("_")]
         if len(set(looks)) < len(looks):
             yield f"{len(looks)} curves have {len(set(looks))} looks"
+        if len(looks) > MOST_CURVES:
+            yield f"{len(looks)} curves are more than can be followed"
     for legend in legends_of(figure):
         names = [text.get_text() for text in legend.get_texts()]
         if len(set(names)) < len(names):

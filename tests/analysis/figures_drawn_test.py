@@ -1,5 +1,5 @@
-"""Every figure by what is drawn: no number outside its axes and no text outside its page, nothing over
-something else, no two curves that look the same.
+"""Every figure by what is drawn: no number outside its axes and no text outside its page, nothing
+over something else, no two curves that look the same.
 
     python3 figures_drawn_test.py SHOAL
 """
@@ -25,24 +25,28 @@ import names  # noqa: E402
 import odd_tables  # noqa: E402
 from drawn_checks import faults, texts_of  # noqa: E402
 
-TWO_SOME = ("--set", "plan.square.rows=2", "--set", "plan.square.columns=4",  # more than there are colours
-            "--set", "faults.node_loss.every_s=50", "--set", "faults.node_loss.count=2")
+# More vehicles than there are colours.
+LOSING = ("--set", "trial.duration_s=300", "--set", "plan.square.rows=2", "--set",
+          "plan.square.columns=4", "--set", "faults.node_loss.every_s=50", "--set",
+          "faults.node_loss.count=2")
 RUNS = {**{name: (name, "--set", "trial.duration_s=40", *(REPEL if "potential" in shown else ()))
            for name, shown in FIGURES.items()},
         "quickstart": ("redsea_square",),
-        "vehicles that are lost": ("construction_square", "--set", "trial.duration_s=300", *TWO_SOME),
+        "vehicles that are lost": ("construction_square", *LOSING),
         "a single instant": ("construction_square", "--set", "trial.duration_s=10")}
 
 
 class FiguresDrawn(desk.Desk):
     def setUp(self):
         super().setUp()
-        sys.path.insert(1, str(pathlib.Path(desk.SHOAL).parents[1] / "python"))
-        self.addCleanup(sys.path.pop, 1)
+        package = str(pathlib.Path(desk.SHOAL).parents[1] / "python")
+        sys.path.insert(1, package)
+        self.addCleanup(sys.path.remove, package)
 
     def assert_fine(self, draw, widths=(1, 2), more=lambda figure: []):
         import catalogue
         import style
+        figure = None
         for columns in widths:
             with self.subTest(columns=columns), style.page(columns), warnings.catch_warnings():
                 warnings.simplefilter("error")
@@ -63,7 +67,8 @@ class FiguresDrawn(desk.Desk):
             for name, draw in catalogue.figures_of(self.desk / str(number)).items():
                 with self.subTest(run=run, figure=name):
                     made |= {name} if self.assert_fine(draw) else set()
-            self.assertLessEqual(FIGURES.get(run, {"trajectories", "speeds", "energy", "quality"}), made)
+            usual = {"trajectories", "speeds", "energy", "quality"}
+            self.assertLessEqual(FIGURES.get(run, usual), made)
 
     def test_figures_of_studies_that_ship(self):
         import of_study
@@ -74,7 +79,8 @@ class FiguresDrawn(desk.Desk):
                     continue
                 seen.add(form)
                 with self.subTest(study=name, table=table.name):
-                    known = any(not math.isnan(x) for column in table.numbers for x in table.column(column))
+                    known = any(not math.isnan(number) for column in table.numbers
+                                for number in table.column(column))
                     drawn = self.assert_fine(lambda: of_study.figure_of(table, request),
                                              more=unsaid_difference(request))
                     self.assertEqual(drawn, known)
@@ -121,25 +127,28 @@ class FiguresDrawn(desk.Desk):
         import panels
         import style
         from stored_study import StudyTable
-        rows = [{"a": str(a), "b": f"b{b}", "c": f"c{c}", "energy_mean_wh": "1", "energy_mean_wh_n": "2"}
-                for a in range(3) for b in range(8) for c in range(32)]
-        for table, says in ((StudyTable("much", "", rows), "has 256 curves.* where in the request of much"),
-                            (StudyTable("much", "", rows[:256]), "has 256 rows.* where in the request of much")):
+        rows = [{"a": str(a), "b": f"b{b}", "c": f"c{c}", "energy_mean_wh": "1",
+                 "energy_mean_wh_n": "2"} for a in range(3) for b in range(8) for c in range(32)]
+        for own, says in ((rows, "has 256 curves"), (rows[:256], "has 256 rows")):
+            table = StudyTable("much", "", own)
             with style.page(1), self.assertRaisesRegex(panels.TooMuch, says):
                 of_study.figure_of(table, {"metrics": ["energy_mean_wh"]})
-            self.write("study/study.toml", '[[table]]\nname = "much"\nmetrics = ["energy_mean_wh"]\n')
+            self.write("study/study.toml",
+                       '[[table]]\nname = "much"\nmetrics = ["energy_mean_wh"]\n')
             self.write("study/tables/much.csv", "\n".join(",".join(row) for row in [
                 list(table.rows[0]), *(row.values() for row in table.rows)]) + "\n")
-            done = subprocess.run([sys.executable, "-B", TOP / "figures", "study"], cwd=self.desk, text=True,
-                                  capture_output=True, check=False)
-            self.assert_complains(done, 2, ["much has 256", "select some with where"])
+            done = subprocess.run([sys.executable, "-B", TOP / "figures", "study"], cwd=self.desk,
+                                  text=True, capture_output=True, check=False)
+            self.assert_complains(done, 2, ["much " + says, "with where in the request of much"])
 
     def test_names_as_words(self):
-        for name, said in (("delta_theta_deg_deg", "delta theta (deg)"), ("ping_period_s", "ping period (s)"),
-                           ("heading_noise_deg_s_deg_s", "heading noise (deg/s)"), ("speed_m_s", "speed (m/s)"),
-                           ("efficiency_m_per_wh", "efficiency (m/Wh)"), ("damping_per_s_1_s", "damping (1/s)"),
-                           ("quality", "quality (m)"), ("time_to_quality_20m_s", "time to quality 20 m (s)"),
-                           ("nees_per_state", "NEES per state"), ("arrived_vehicles", "arrived vehicles")):
+        for name, said in (("delta_theta_deg_deg", "delta theta (deg)"),
+                           ("heading_noise_deg_s_deg_s", "heading noise (deg/s)"),
+                           ("damping_per_s_1_s", "damping (1/s)"), ("speed_m_s", "speed (m/s)"),
+                           ("efficiency_m_per_wh", "efficiency (m/Wh)"),
+                           ("time_to_quality_20m_s", "time to quality 20 m (s)"),
+                           ("quality", "quality (m)"), ("nees_per_state", "NEES per state"),
+                           ("arrived_vehicles", "arrived vehicles")):
             self.assertEqual(names.words(name), said)
 
 
@@ -168,7 +177,8 @@ class Checks(unittest.TestCase):
     def test_texts_that_cannot_be_read(self):
         self.assert_seen("is cut off", lambda axes: axes.set_ylabel("long " * 60))
         self.assert_seen("overlap", lambda axes: axes.figure.text(0.5, 0.02, "Time again"))
-        self.assert_seen("touches another", lambda axes: axes.set_xticks(range(200), ["1000"] * 200))
+        self.assert_seen("touches another",
+                         lambda axes: axes.set_xticks([0, 0.05, 1], ["1000"] * 3))
         self.assert_seen("a name of the program", lambda axes: axes.set_ylabel("energy_mean"))
         self.assert_seen("its unit twice", lambda axes: axes.set_ylabel("Delta theta deg (deg)"))
         self.assert_seen("no axis says", lambda axes: axes.set_xlabel(""))
@@ -180,19 +190,26 @@ class Checks(unittest.TestCase):
 
         self.assert_seen("contrast", pale)
         self.assert_seen("hides", lambda axes: axes.legend())
-        self.assert_seen("covers another", lambda axes: [axes.figure.legend(axes.lines, [a]) for a in "ab"])
-        self.assert_seen("have 1 looks", lambda axes: axes.plot([0, 1], [100, 150], color="C0", label="two"))
-        self.assert_seen("same twice", lambda axes: axes.figure.legend([*axes.lines] * 2, ["one", "one"]))
+        self.assert_seen("covers another",
+                         lambda axes: [axes.figure.legend(axes.lines, [a]) for a in "ab"])
+        self.assert_seen("have 1 looks",
+                         lambda axes: axes.plot([0, 1], [100, 150], color="C0", label="two"))
+        self.assert_seen("more than can be followed", lambda axes: [
+            axes.plot([0, 1], [100, k], label=f"{k}") for k in range(101, 110)])
+        self.assert_seen("same twice",
+                         lambda axes: axes.figure.legend([*axes.lines] * 2, ["one", "one"]))
 
 
 def form_of(table, request):
     """Figures of two tables with the same form differ in their numbers."""
     named = ("of", "columns", "against", "metrics", "statistic")
-    return (tuple(table.labels), len(table.numbers), len(table.rows), *(str(request.get(n)) for n in named))
+    return (tuple(table.labels), len(table.numbers), len(table.rows),
+            *(str(request.get(name)) for name in named))
 
 
 def unsaid_difference(request):
-    """A check that a comparison says of what its numbers are differences, and shows where there is none."""
+    """A check that a comparison says of what its numbers are differences, and shows where there is
+    none."""
     def check(figure):
         if request.get("of") != "comparison":
             return

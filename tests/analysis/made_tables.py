@@ -1,15 +1,15 @@
 """Tables of the studies that ship, as `shoal tables` writes them, with numbers that were made up.
 
-The program says which rows and columns they have, of a study of which hardly a trial ran: all of them
-would take minutes. Sensitivities and attributions are computed, from short trials."""
+The program says which rows and columns they have, of a study of which hardly a trial ran: all of
+them would take minutes. Sensitivities and attributions are computed, from short trials."""
 
 import math
 import re
 import tomllib
 
-STUDIES = ("assignment_energy", "current_estimation", "delta_theta", "local_minima", "ownship_weight",
-           "potentials", "separation_and_noise", "settings_effects", "sobol_rigid", "test_bed_latency",
-           "thesis_chapter5", "virtual_potentials")
+STUDIES = ("assignment_energy", "current_estimation", "delta_theta", "local_minima",
+           "ownship_weight", "potentials", "separation_and_noise", "settings_effects",
+           "sobol_rigid", "test_bed_latency", "thesis_chapter5", "virtual_potentials")
 STEPS = 25  # rows of a table of series
 BOUNDS = {"mean": (), "mean +- ci95": ("_plus_minus",), "mean +- sd": ("_sd",),
           "mean [min, max]": ("_low", "_high"), "mean [bca95]": ("_low", "_high"),
@@ -27,7 +27,8 @@ def shortened(text):
     head, tables = re.split(r"^(?=\[)", text, maxsplit=1, flags=re.MULTILINE)
     if "set = {" not in head:
         head += "set = { }\n"
-    return head.replace("set = {", f"set = {{ trial.duration_s = {seconds},").replace(", }", " }") + tables
+    head = head.replace("set = {", f"set = {{ trial.duration_s = {seconds},").replace(", }", " }")
+    return head + tables
 
 
 def needs_trials(text):
@@ -53,7 +54,8 @@ def fill(table, request, value=steady):
             for ending in ("", *bounds_of(request, row, column)):
                 row[column + ending] = "" if mean is None else repr(bounds[ending])
             if mean is not None and request.get("metrics") and "factors" in request:
-                row[column + "_each"] = " ".join(repr(mean + share * width) for share in (-0.8, 0.1, 0.6))
+                row[column + "_each"] = " ".join(repr(mean + share * width)
+                                                 for share in (-0.8, 0.1, 0.6))
 
 
 def bounds_of(request, row, column):

@@ -6,8 +6,9 @@ from made_tables import steady
 
 LEVELS = {"behaviour": ["rigid_registration", "assignment_registration", "pairwise_referencing"],
           "settings": ["text", "program"],
-          "a_factor_with_a_long_name": ["a level whose name takes more than the half of a column to say",
-                                        "averylongnamewithoutanyblankinwhichitcouldbebrokenintolines", "-"],
+          "a_factor_with_a_long_name": [
+              "a level whose name takes more than the half of a column to say",
+              "averylongnamewithoutanyblankinwhichitcouldbebrokenintolines", "-"],
           "ping_period": ["5", "15", "30", "60", "120"],
           "delta_theta_deg_deg": ["2", "5", "10", "45", "90"],
           "weight": ["0.001", "0.1", "1", "100"],
@@ -23,14 +24,17 @@ def request(of="table", **asked):
 
 
 def crossed(*factors):
-    return [dict(zip(factors, levels)) for levels in itertools.product(*(LEVELS[f] for f in factors))]
+    return [dict(zip(factors, levels))
+            for levels in itertools.product(*(LEVELS[factor] for factor in factors))]
 
 
 def cells(rows, columns, asked):
     """Rows without numbers, of a request that names its metrics; fill() gives them some."""
     metrics = asked.get("metrics") or asked["series"]
-    names = ["_".join([*levels.values(), metric]) for levels in crossed(*columns) for metric in metrics]
-    return [{**row, **{name + end: "2" for name in names for end in ("", "_n")}} for row in rows], asked
+    names = ["_".join([*levels.values(), metric])
+             for levels in crossed(*columns) for metric in metrics]
+    numbers = {name + end: "2" for name in names for end in ("", "_n")}
+    return [{**row, **numbers} for row in rows], asked
 
 
 def indices(rows, names):
@@ -46,7 +50,8 @@ def forms():
     """name -> (rows, request)."""
     sampled = [{"factor": name} for name in ("ping_period", "bearing_noise", "drifting_radius")]
     changes = [{"factor": "own_weight", "from": "1", "to": "0.1"},
-               {"factor": "planned", "from": "always", "to": "per ping"}, {"factor": "all", "from": "", "to": ""}]
+               {"factor": "planned", "from": "always", "to": "per ping"},
+               {"factor": "all", "from": "", "to": ""}]
     metrics = ["energy_mean_wh", "quality_settled_m"]
     return {
         "curves": cells(crossed("behaviour", "delta_theta_deg_deg"), ("settings",),
@@ -63,21 +68,24 @@ def forms():
         "one row": cells(crossed("settings")[:1], (), request(metrics=metrics)),
         "one trial": cells([{"time_s": "0"}], (), request(series=["quality"], every=1)),
         "differences of a number": (
-            [{"group": g["group"], "metric": m, "delta_theta_deg": d["delta_theta_deg_deg"], "difference": "",
-              "difference_n": "2"} for m in HEADINGS for g in crossed("group")
-             for d in crossed("delta_theta_deg_deg") if d["delta_theta_deg_deg"] != "10"],
+            [{**row, "metric": m, "delta_theta_deg": step, "difference": "", "difference_n": "2"}
+             for m in HEADINGS for row in crossed("group")
+             for step in LEVELS["delta_theta_deg_deg"] if step != "10"],
             request("comparison", factor="delta_theta_deg", reference="10", metrics=metrics)),
         "differences of names": (
-            [{**row, "metric": m, "behaviour": "rigid_registration", "difference": "", "difference_n": "2"}
-             for m in HEADINGS for row in crossed("group", "settings")],
-            request("comparison", factor="behaviour", reference="pairwise_referencing", metrics=metrics)),
-        "indices": indices(of_metrics(sampled), ("first_order", "first_order_low", "first_order_high", "total")),
+            [{**row, "metric": m, "behaviour": "rigid_registration", "difference": "",
+              "difference_n": "2"} for m in HEADINGS for row in crossed("group", "settings")],
+            request("comparison", factor="behaviour", reference="pairwise_referencing",
+                    metrics=metrics)),
+        "indices": indices(of_metrics(sampled), ("first_order", "first_order_low",
+                                                 "first_order_high", "total")),
         "effects": indices(of_metrics(sampled), ("mu", "mu_star", "sigma")),
         "pairs": indices(of_metrics([{"factor": a["factor"], "and_factor": b["factor"]} for a, b
                                      in itertools.combinations(sampled, 2)]), ("second_order",)),
         "convergence": indices(of_metrics([{**row, "base_samples": str(2 ** k)} for row in sampled
                                            for k in range(3, 8)]), ("first_order", "total")),
-        "changes": indices(of_metrics(changes), ("share", "share_low", "share_high", "alone", "last")),
+        "changes": indices(of_metrics(changes), ("share", "share_low", "share_high", "alone",
+                                                 "last")),
     }
 
 
