@@ -141,6 +141,21 @@ class FiguresDrawn(desk.Desk):
                                   text=True, capture_output=True, check=False)
             self.assert_complains(done, 2, ["much " + says, "with where in the request of much"])
 
+    def test_performance_profiles(self):
+        import panels
+        import profiles
+        for solvers in (1, 7, 8):
+            rows = [{"family": family, "measure": measure, "solver": f"nlopt.solver_{k}",
+                     "factor": str(2.0 ** octave), "share": str(min(1.0, 0.1 * octave * (k + 1)))}
+                    for family in ("pair_potential", "registration")
+                    for measure in ("seconds", "evaluations")
+                    for k in range(solvers) for octave in range(15)]
+            if solvers > 7:
+                with self.assertRaisesRegex(panels.TooMuch, "8 solvers.* shoal solve --solvers"):
+                    profiles.profiles(rows)
+            else:
+                self.assertTrue(self.assert_fine(lambda own=rows: profiles.profiles(own)))
+
     def test_names_as_words(self):
         for name, said in (("delta_theta_deg_deg", "delta theta (deg)"),
                            ("heading_noise_deg_s_deg_s", "heading noise (deg/s)"),
