@@ -1,7 +1,6 @@
 #include <algorithm>
 #include <cctype>
 #include <set>
-#include <stdexcept>
 
 #include "shoal/analysis/tables/csv_line.hpp"
 #include "shoal/analysis/tables/layout.hpp"
@@ -49,9 +48,9 @@ Fields parts_of(ColumnKind kind) {
   }
 }
 
-void add_header(const Column& column, const LaidColumn& laid, Fields& fields) {
-  const std::string name = name_of(column);
-  fields.push_back(name);
+/// The names of what a column of the table takes in CSV.
+Fields header_of(const std::string& name, const LaidColumn& laid) {
+  Fields fields{name};
   for (const std::string& part : parts_of(laid.kind)) fields.push_back(name + part);
   if (laid.counts) {
     fields.push_back(name + "_n");
@@ -62,6 +61,32 @@ void add_header(const Column& column, const LaidColumn& laid, Fields& fields) {
   if (laid.reached) fields.push_back(name + "_reached");
   if (laid.remarks) fields.push_back(name + "_remarks");
   if (laid.each) fields.push_back(name + "_each");
+  return fields;
+}
+
+/// Numbers keep their names, for programs that look for them. A factor may have any name, even one
+/// of theirs, and labels of levels may differ in signs that names do not have.
+std::vector<Fields> distinct_headers(const Table& table, const Layout& layout) {
+  std::vector<Fields> headers(table.columns.size());
+  std::set<std::string> taken;
+  const auto take = [&](std::size_t c, const std::string& clash) {
+    const std::string name = name_of(table.columns[c]);
+    const auto is_free = [&](const std::string& field) { return !taken.contains(field); };
+    const auto try_name = [&](const std::string& ending) {
+      headers[c] = header_of(name + ending, layout.columns[c]);
+      return std::ranges::all_of(headers[c], is_free);
+    };
+    if (!try_name("") && !try_name(clash)) {
+      for (int k = 2; !try_name(clash + '_' + std::to_string(k));) ++k;
+    }
+    taken.insert(headers[c].begin(), headers[c].end());
+  };
+  for (const bool labels : {false, true}) {
+    for (std::size_t c = 0; c < table.columns.size(); ++c) {
+      if ((layout.columns[c].kind == ColumnKind::text) == labels) take(c, labels ? "_label" : "");
+    }
+  }
+  return headers;
 }
 
 /// A label that a spreadsheet would take for a formula, quoted as spreadsheets do.
@@ -117,11 +142,8 @@ void add_cell(const Cell& cell, const LaidColumn& laid, Fields& fields) {
 std::string as_csv(const Table& table) {
   const Layout layout(table);
   Fields header;
-  for (std::size_t c = 0; c < table.columns.size(); ++c) {
-    add_header(table.columns[c], layout.columns[c], header);
-  }
-  if (std::set<std::string>(header.begin(), header.end()).size() < header.size()) {
-    throw std::invalid_argument("table \"" + table.name + "\": two columns have the same name");
+  for (const Fields& fields : distinct_headers(table, layout)) {
+    header.insert(header.end(), fields.begin(), fields.end());
   }
   std::string printed = csv_line(header);
   for (const std::vector<Cell>& row : table.rows) {

@@ -88,9 +88,9 @@ enum class TableFormat { text, csv, markdown, latex, html };
 ///  - `text`: for terminals. Best values end with `*`.
 ///  - `csv`: RFC 4180 with `\n`; caption and notes are left out. An estimate takes columns of its
 ///    own: `x`, then `x_plus_minus`, `x_sd` or `x_low` and `x_high`, then `x_n` and `x_failed`, and
-///    `x_not_run`, `x_best`, `x_reached`, `x_remarks` and `x_each` (values
-///    separated by blanks) where any is. Numbers are in full
-///    precision.
+///    `x_not_run`, `x_best`, `x_reached`, `x_remarks` and `x_each` (values separated by blanks)
+///    where any is. Numbers are in full precision. Of columns with one name, those with numbers
+///    keep it; labels become `x_label`, and others `x_2`.
 ///  - `markdown`: a pipe table of GitHub. Best values are bold.
 ///  - `latex`: a table environment that needs booktabs, graphicx and siunitx (2 or 3), or, of one
 ///    with sentences, a longtable. Best values are bold.
@@ -98,7 +98,7 @@ enum class TableFormat { text, csv, markdown, latex, html };
 ///
 /// Throws std::invalid_argument for a table without columns, rows of another length, columns that
 /// mix kinds, numbers that are not finite, intervals whose ends are swapped, negative counts and
-/// uncertainties, and names that are not unique or not fit for a label.
+/// uncertainties, and a name that is not fit for a label.
 std::string print(const Table& table, TableFormat format);
 
 /// Throws InputError, naming the known ones, for anything else.
