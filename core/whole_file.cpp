@@ -1,5 +1,7 @@
 #include "shoal/core/whole_file.hpp"
 
+#include <unistd.h>
+
 #include <cerrno>
 #include <cstdio>
 #include <fstream>
@@ -13,10 +15,17 @@ namespace {
 
 namespace fs = std::filesystem;
 
+/// Waits for it: else a file could get its name before its content, and be empty after a loss of
+/// power. Devices and pipes have no disk.
+bool is_on_disk(int file) {
+  return ::fsync(file) == 0 || errno == EINVAL || errno == EROFS;
+}
+
 std::error_code write_bytes(const fs::path& file, std::span<const char> content) {
   errno = 0;
   std::FILE* out = std::fopen(file.c_str(), "wb");
-  bool written = out && std::fwrite(content.data(), 1, content.size(), out) == content.size();
+  bool written = out && std::fwrite(content.data(), 1, content.size(), out) == content.size() &&
+                 std::fflush(out) == 0 && is_on_disk(::fileno(out));
   if (out) written = std::fclose(out) == 0 && written;
   if (written) return {};
   return {errno != 0 ? errno : EIO, std::generic_category()};
