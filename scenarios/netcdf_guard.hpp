@@ -1,6 +1,9 @@
 #pragma once
 
+#include <cstdint>
+#include <functional>
 #include <mutex>
+#include <string>
 
 namespace shoal::scenarios {
 
@@ -13,5 +16,14 @@ class NetcdfGuard {
  private:
   std::unique_lock<std::mutex> lock_;
 };
+
+/// Reads a file in a child process, and throws away what was read. HDF5 may crash, loop or ask for
+/// any memory on a damaged file, and no check of ours comes before that.
+///
+/// `bytes` is the size of the file, which sets how much time and memory it may take. Throws
+/// InputError if the child did not end by itself. What `read` throws is left to the reading that
+/// comes after. No NetcdfGuard may be held.
+void rehearse_netcdf(const std::string& name, std::uintmax_t bytes,
+                     const std::function<void()>& read);
 
 }  // namespace shoal::scenarios

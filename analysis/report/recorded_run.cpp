@@ -86,8 +86,9 @@ const std::vector<double>& RecordedRun::column(const std::string& name) const {
 
 RecordedRun read_recorded_run(const std::filesystem::path& folder) {
   RecordedRun run;
-  read_vehicles(NetcdfFile(folder / "run.nc"), run);
-  run.series = series_of(NetcdfFile(folder / "series.nc"));
+  scenarios::read_netcdf(folder / "run.nc",
+                         [&](const NetcdfFile& file) { read_vehicles(file, run); });
+  run.series = scenarios::read_netcdf(folder / "series.nc", series_of);
   return run;
 }
 

@@ -29,7 +29,7 @@ struct NetcdfVariable {
   std::size_t size() const;
 };
 
-/// One netCDF file, read only.
+/// One netCDF file, read only, as read_netcdf() hands it to those that read.
 ///
 /// Holds a NetcdfGuard as long as it lives: read, close, and work on what was read.
 /// Every error is an InputError that begins with the name of the file.
@@ -78,5 +78,15 @@ class NetcdfFile {
 
 /// How a path is shown: relative to where the user stands if it is below, else in full.
 std::string shown(const std::filesystem::path& path);
+
+/// What `read` makes of a NetcdfFile. It is called twice, first in a child process: it must do
+/// nothing but read. Throws InputError that begins with the name of the file.
+template <class Read>
+auto read_netcdf(const std::filesystem::path& path, const Read& read) {
+  std::error_code error;  // the reading says it better
+  const std::uintmax_t bytes = std::filesystem::file_size(path, error);
+  if (!error) rehearse_netcdf(shown(path), bytes, [&] { read(NetcdfFile(path)); });
+  return read(NetcdfFile(path));
+}
 
 }  // namespace shoal::scenarios

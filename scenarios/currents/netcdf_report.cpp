@@ -136,10 +136,7 @@ std::string values_text(const NetcdfFile& file, VelocityReader& reader) {
                                    slowest, fastest, u_sum / n, v_sum / n));
 }
 
-}  // namespace
-
-std::string describe_current_file(const std::filesystem::path& path) {
-  const NetcdfFile file(path);
+std::string description(const NetcdfFile& file) {
   const CurrentLayout layout = understand(file, "", "");
   VelocityReader reader(file, layout);
   std::string text = file.name() + ": currents\n";
@@ -150,6 +147,12 @@ std::string describe_current_file(const std::filesystem::path& path) {
   if (!layout.land.empty()) text += line("mask", "land is taken from it, too");
   text += values_text(file, reader);
   return text;
+}
+
+}  // namespace
+
+std::string describe_current_file(const std::filesystem::path& path) {
+  return read_netcdf(path, description);
 }
 
 }  // namespace shoal::scenarios

@@ -29,8 +29,8 @@ struct FileCurrent {
   double duration_s = 0.0;
 };
 
-FileCurrent placed(const std::filesystem::path& path, const DriftingWindow& window) {
-  const NetcdfFile file(path);
+FileCurrent placed(const NetcdfFile& file, const std::filesystem::path& path,
+                   const DriftingWindow& window) {
   const CurrentLayout layout = understand(file, "", "");
   FileCurrent placed{.duration_s = window.duration_s};
   placed.options.at_or_new("file").value = path.string();
@@ -60,7 +60,8 @@ FileCurrent placed(const std::filesystem::path& path, const DriftingWindow& wind
 std::vector<CurrentStatistic> current_file_statistics(const std::filesystem::path& path) {
   DriftingWindow window;
   // The file is closed again before its current reads it.
-  const FileCurrent file = placed(path, window);
+  const FileCurrent file =
+      read_netcdf(path, [&](const NetcdfFile& read) { return placed(read, path, window); });
   window.duration_s = file.duration_s;
   const auto current = Registry<Current>::instance().make("netcdf", file.options, "current.netcdf");
   return current_statistics(*current, window);

@@ -99,8 +99,7 @@ std::vector<Node> read_nodes(const NetcdfFile& file, const CurrentLayout& layout
   return nodes;
 }
 
-std::shared_ptr<const Waters> read(const WatersRequest& request) {
-  const NetcdfFile file(request.file);
+std::shared_ptr<const Waters> read(const NetcdfFile& file, const WatersRequest& request) {
   const CurrentLayout layout = understand(file, request.u_variable, request.v_variable);
   const MissionFrame frame = mission_frame(file, layout, request.origin);
   const auto field_of = [&](std::vector<Node> nodes) {
@@ -158,7 +157,8 @@ std::shared_ptr<const Waters> waters_of(const WatersRequest& request) {
     if (each.changed != changed || each.size != size || each.request != request) continue;
     if (std::shared_ptr<const Waters> waters = each.waters.lock()) return waters;
   }
-  std::shared_ptr<const Waters> waters = read(request);
+  std::shared_ptr<const Waters> waters =
+      read_netcdf(request.file, [&](const NetcdfFile& file) { return read(file, request); });
   known.push_back({request, changed, size, waters});
   return waters;
 }

@@ -1,0 +1,49 @@
+#include "shoal/scenarios/netcdf_guard.hpp"
+
+#include <gtest/gtest.h>
+
+#include <csignal>
+#include <stdexcept>
+
+#include "tests/support/complaint_of.hpp"
+
+namespace shoal::scenarios {
+namespace {
+
+using tests::complaint_of;
+
+std::string complaint_of_rehearsal(const std::function<void()>& read) {
+  return complaint_of([&] { rehearse_netcdf("some.nc", 1000, read); });
+}
+
+TEST(NetcdfRehearsal, LeavesNothingOfWhatWasRead) {
+  int reads = 0;
+  EXPECT_EQ(complaint_of_rehearsal([&] { ++reads; }), "");
+  EXPECT_EQ(reads, 0);
+}
+
+TEST(NetcdfRehearsal, LeavesExceptionsToTheReadingThatFollows) {
+  EXPECT_EQ(complaint_of_rehearsal([] { throw std::runtime_error("no such variable"); }), "");
+  EXPECT_EQ(complaint_of_rehearsal([] { throw InputError("a wind is no current"); }), "");
+}
+
+TEST(NetcdfRehearsal, SurvivesACrash) {
+  for (const int signal : {SIGSEGV, SIGABRT, SIGBUS, SIGKILL}) {
+    const std::string why = complaint_of_rehearsal([&] { std::raise(signal); });
+    EXPECT_TRUE(why.starts_with("some.nc: is damaged: the netCDF library crashes")) << why;
+  }
+}
+
+TEST(NetcdfRehearsal, EndsALoop) {
+  // What the kernel sends to a process that has used up its time.
+  const std::string why = complaint_of_rehearsal([] { std::raise(SIGXCPU); });
+  EXPECT_NE(why.find("does not come to an end"), std::string::npos) << why;
+}
+
+TEST(NetcdfRehearsal, MayUseTheGuard) {
+  EXPECT_EQ(complaint_of_rehearsal([] { const NetcdfGuard guard; }), "");
+  const NetcdfGuard guard;  // and it is free afterwards
+}
+
+}  // namespace
+}  // namespace shoal::scenarios
