@@ -16,7 +16,11 @@ namespace shoal {
 /// Tables keep the order of writing. Values written by hand and by the program are alike.
 struct Setting {
   using List = std::vector<Setting>;
-  using Table = std::vector<std::pair<std::string, Setting>>;
+  /// A class of its own: of a variant of nothing but std::vector and the like, libstdc++ 12
+  /// destroys an alternative that was never made, if memory ends while the variant is copied.
+  struct Table : std::vector<std::pair<std::string, Setting>> {
+    using vector::vector;
+  };
 
   std::variant<bool, std::int64_t, double, std::string, List, Table> value = Table{};
   Origin origin;

@@ -75,9 +75,7 @@ void require_command(const CLI::App& app, const std::string& word) {
                         CLI::ExitCodes::ExtrasError);
 }
 
-}  // namespace
-
-int main(int argc, char** argv) {
+int shoal_program(int argc, char** argv) {
   // A limit on the size of files, or a reader that has gone, is an error to report, not a signal.
   std::signal(SIGXFSZ, SIG_IGN);
   std::signal(SIGPIPE, SIG_IGN);
@@ -135,6 +133,8 @@ int main(int argc, char** argv) {
   sweep_command->add_flag("--rerun-changed", sweep.rerun_changed,
                           "run stored trials again if study, scenario or program have changed");
   sweep_command->add_flag("--retry-failed", sweep.retry_failed, "run failed trials again");
+  sweep_command->add_flag("!--no-figures", sweep.figures,
+                          "draw no figures when all trials are done: tables and page only");
   sweep_command->callback([&] { command = [&] { shoal::program::sweep(sweep); }; });
 
   std::string folder;
@@ -272,4 +272,12 @@ int main(int argc, char** argv) {
     return complained(error.what() + std::string("; see shoal --help"), 2);
   }
   return guarded(command);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  int status = 0;
+  const int complaint = guarded([&] { status = shoal_program(argc, argv); });
+  return complaint != 0 ? complaint : status;
 }
