@@ -41,6 +41,7 @@ struct SweepArguments {
   std::string dask;  ///< address of a scheduler, whose workers run the trials; "" for none
   int batch = 1;     ///< trials that such a worker takes at a time
   bool fail_fast = false, rerun_changed = false, retry_failed = false;
+  bool figures = true;
 };
 
 // Each command prints to stdout, throws InputError or SystemError, and knows nothing of CLI11.
@@ -59,5 +60,7 @@ void claims(const std::string& folder);
 void report(const std::string& folder);
 /// Becomes Python, which takes the same arguments.
 void figures(const std::vector<std::string>& arguments);
+/// All of a folder, in a child process and without a word: whether it succeeded.
+bool figures_drawn(const std::string& folder);
 
 }  // namespace shoal::program

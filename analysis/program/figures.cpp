@@ -4,10 +4,24 @@
 
 namespace shoal::program {
 
-void figures(const std::vector<std::string>& arguments) {
+namespace {
+
+std::vector<std::string> drawing(const std::vector<std::string>& arguments) {
   std::vector<std::string> words{(scenarios::library_path() / "figures").string()};
   words.insert(words.end(), arguments.begin(), arguments.end());
-  become_python("draws the figures", words);
+  return words;
+}
+
+constexpr const char* purpose = "draws the figures";
+
+}  // namespace
+
+void figures(const std::vector<std::string>& arguments) {
+  become_python(purpose, drawing(arguments));
+}
+
+bool figures_drawn(const std::string& folder) {
+  return python_succeeds(purpose, drawing({folder}));
 }
 
 }  // namespace shoal::program

@@ -1,5 +1,7 @@
 #include "python.hpp"
 
+#include <fcntl.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
 #include <cerrno>
@@ -7,6 +9,7 @@
 #include <cstring>
 
 #include "shoal/core/error.hpp"
+#include "shoal/core/message.hpp"
 #include "shoal/scenarios/library_path.hpp"
 
 namespace shoal::program {
@@ -36,6 +39,25 @@ void become_python(const std::string& purpose, const std::vector<std::string>& a
   ::execv(python.c_str(), pointers.data());
   throw SystemError("cannot run " + python + " (" + std::strerror(errno) + "), which " + purpose +
                     "; install python3, or set SHOAL_PYTHON");
+}
+
+bool python_succeeds(const std::string& purpose, const std::vector<std::string>& arguments) {
+  const pid_t child = ::fork();
+  if (child < 0) throw SystemError(std::string("cannot start Python: ") + std::strerror(errno));
+  if (child == 0) {
+    const int nowhere = ::open("/dev/null", O_WRONLY | O_CLOEXEC);
+    if (nowhere >= 0) ::dup2(nowhere, STDOUT_FILENO);
+    try {
+      become_python(purpose, arguments);
+    } catch (const std::exception& error) {
+      write_message("shoal: " + std::string(error.what()) + "\n");
+    }
+    std::_Exit(1);
+  }
+  int status = 0;
+  while (::waitpid(child, &status, 0) < 0 && errno == EINTR) {
+  }
+  return WIFEXITED(status) && WEXITSTATUS(status) == 0;
 }
 
 }  // namespace shoal::program

@@ -14,4 +14,8 @@ std::filesystem::path package_path();
 [[noreturn]] void become_python(const std::string& purpose,
                                 const std::vector<std::string>& arguments);
 
+/// The same in a child process, whose output is left out and whose messages are shown: whether it
+/// ended well.
+bool python_succeeds(const std::string& purpose, const std::vector<std::string>& arguments);
+
 }  // namespace shoal::program

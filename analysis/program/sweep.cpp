@@ -117,10 +117,14 @@ void sweep(const SweepArguments& arguments) {
   fmt::print("{}: {} of {} trials are stored, {} of them run now in {:.1f} s\n", folder.string(),
              progress.stored + progress.done, progress.planned, progress.done, progress.elapsed_s);
   if (progress.failed > 0) {
-    fmt::print("{} failed; the first: {}\n", progress.failed, progress.first_failure);
+    fmt::print("{} failed; the first: {}; --retry-failed runs them again\n", progress.failed,
+               progress.first_failure);
   }
-  // A part of a study has no tables of its own.
-  if (settings.shards == 1) tables(folder.string(), true);
+  if (settings.shards > 1) return;  // a part of a study has no tables of its own
+  tables(folder.string(), true);
+  const bool drawn = arguments.figures && figures_drawn(folder.string());
+  report(folder.string());
+  if (drawn) fmt::print("written: {}, each as .pdf and .svg\n", (folder / "figures").string());
 }
 
 }  // namespace shoal::program

@@ -71,8 +71,12 @@ class Figures(Desk):
 
     def test_a_study_has_a_figure_of_every_table_with_numbers(self):
         self.write("study.toml", SHORT + COMPARISON)
-        done = self.shoal("sweep", "study.toml", "--out", "out")
-        self.assertEqual(done.returncode, 0, done.stderr)
+        done = self.sh("$SHOAL sweep study.toml --out out")
+        self.assertEqual((done.returncode, done.stderr), (0, ""))
+        self.assertIn("written: out/report.html\nwritten: out/figures, each as .pdf and .svg\n",
+                      done.stdout)
+        self.assertEqual(self.pictures_of_page(), 3)
+        shutil.rmtree(self.desk / "out" / "figures")
         files = self.drawn("out")
         self.assertEqual({file.stem for file in files},
                          {"energy", "against_time", "difference"})
@@ -80,8 +84,10 @@ class Figures(Desk):
                          {file for file in files if file.stem == "energy"})
         done = self.shoal("report", "out")
         self.assertEqual(done.returncode, 0, done.stderr)
-        page = (self.desk / "out" / "report.html").read_text()
-        self.assertEqual(page.count("data:image/svg+xml;base64,"), 3)
+        self.assertEqual(self.pictures_of_page(), 3)
+
+    def pictures_of_page(self):
+        return (self.desk / "out" / "report.html").read_text().count("data:image/svg+xml;base64,")
 
     def test_a_curve_has_the_numbers_of_its_table(self):
         sys.path.insert(0, str(pathlib.Path(__file__).parents[2] / "analysis" / "figures"))

@@ -27,7 +27,7 @@ import uuid
 from typing import TYPE_CHECKING, Any, Callable, Mapping
 
 from . import _shoal
-from ._studies import folder_of, trials, write_tables
+from ._studies import folder_of, study_report, trials, write_tables
 from ._trials import plain
 
 if TYPE_CHECKING:
@@ -189,10 +189,12 @@ def _main() -> int:
         print(f"{folder}: {last['stored'] + last['done']} of {last['planned']} trials are stored, "
               f"{last['done']} of them run now in {last['elapsed_s']:.1f} s")
         if last["failed"]:
-            print(f"{last['failed']} failed; the first: {last['first_failure']}")
+            print(f"{last['failed']} failed; the first: {last['first_failure']}; --retry-failed "
+                  "runs them again")
     else:
         print(f"{folder}: all trials are stored already")
-    print(f"written: {folder}/tables")
+    study_report(folder)
+    print(f"written: {folder}/tables, {folder}/report.html")
     return 0
 
 
