@@ -58,7 +58,8 @@ TEST(Plan, FactorsWhoseColumnsWouldBeOneAreRefused) {
   };
   for (const auto& [first, second] :
        {std::pair("a", "A"), {"a b", "a#b"}, {"Noise_1", "noise 1"}}) {
-    const std::string why = complaint_of([&] { plan_of(two(first, second)); });
+    const std::string text = two(first, second);
+    const std::string why = complaint_of([&] { plan_of(text); });
     EXPECT_NE(
         why.find("\"" + std::string(first) + "\" and \"" + second + "\" would have one column"),
         std::string::npos)

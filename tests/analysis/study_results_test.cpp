@@ -124,7 +124,7 @@ TEST_F(Stored, NotRunFailedUndefinedAndNeverReachedAreFourAnswers) {
     const Answer found = all.answer({.metric = metric}, i);
     return std::pair(found.kind, found.number);
   };
-  for (const std::size_t i : {0, 1, 2, 3, 4}) {
+  for (const std::size_t i : {0U, 1U, 2U, 3U, 4U}) {
     const Answer::Kind kinds[]{value, never_reached, undefined, failed, not_run};
     EXPECT_EQ(answer("time_to_quality_20m_s", i), std::pair(kinds[i], i == 0   ? 600.0
                                                                       : i == 1 ? 3600.0

@@ -207,7 +207,7 @@ TEST(ThrustCourse, IsThatOfTheSeries) {
 TEST(LeastThrust, IsWhereTheVehicleIsThatThrustsLeast) {
   // Nine vehicles in their places but for the corners, which are 100 m too far out.
   std::vector<Eigen::Vector2d> places = square_places(3, 3);
-  for (const std::size_t i : {0, 2, 6, 8})
+  for (const std::size_t i : {0U, 2U, 6U, 8U})
     places[i] += (places[i] - places[4]).normalized() * 100.0;
   const Results results = results_of({nine_parked,
                                       exact,

@@ -41,11 +41,12 @@ void layer(benchmark::State& state, const char* name, const Problem& problem) {
   }
 }
 
-/// What the layer calls, too: a cost of which the caller knows no more than that it is one. Without
-/// this the compiler would inline it here, and leave out the Hessian that nobody asks for.
-[[gnu::noipa]] double evaluated(const Problem& problem, const double* x, double* gradient) {
-  return problem.evaluate(x, gradient);
-}
+/// What the layer calls, too: a cost of which the caller knows no more than that it is one. A
+/// function that the compiler knew it would inline here, and leave out the Hessian.
+double (*volatile evaluated)(const Problem& problem, const double* x, double* gradient) =
+    [](const Problem& problem, const double* x, double* gradient) {
+      return problem.evaluate(x, gradient);
+    };
 
 struct Raw {
   Problem problem = two_neighbours();
@@ -164,7 +165,7 @@ void raw_ceres_least_squares(benchmark::State& state) {
 }
 
 Problem robust_place() {
-  return least_squares_problem({Vector2d::Zero()},
+  return least_squares_problem(Vector2d::Zero(),
                                {differentiated_blocks<2>(Places{}),
                                 Registry<Loss>::instance().make("cauchy", Setting{}, "cauchy"),
                                 {}});

@@ -46,7 +46,7 @@ TEST(LatticeSymmetry, DoesNotDependOnThePoseOfThePlanOrTheOrderOfItsSlots) {
     const Transform2 T = Transform2::from_angle(radians(10.0 * turn + 3.0), {1e4, -2e4});
     for (const auto& [second, order] : {std::pair{at_60_deg, 6}, std::pair{northward, 4}}) {
       Slots slots = lattice(5, eastward, second);
-      std::ranges::rotate(slots, slots.begin() + turn % 25);
+      std::rotate(slots.begin(), slots.begin() + turn % 25, slots.end());
       for (Vector2d& slot : slots) slot = T * slot;
       EXPECT_EQ(lattice_symmetry(plan_of(slots)), order) << turn;
     }

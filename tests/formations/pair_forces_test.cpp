@@ -289,7 +289,7 @@ TEST(PairForces, HealALatticeOfSquaresOfTwoKinds) {
 // From anywhere both form pieces of their lattice, with faults between them, as in the sources.
 TEST(PairForces, LeadTwoKindsToSquaresAndOneKindToTriangles) {
   double squares4 = 0.0, squares6 = 0.0, triangles4 = 0.0, triangles6 = 0.0;
-  for (const std::uint64_t seed : {1, 2, 3}) {
+  for (const std::uint64_t seed : {1U, 2U, 3U}) {
     const Points start = scattered(Points(16, Vector2d::Zero()), 400.0, seed);
     const Points squares = after(2000, start, "squares", 510.0).places();
     squares4 += order(squares, 4);

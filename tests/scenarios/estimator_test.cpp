@@ -107,7 +107,7 @@ TEST(PerfectEstimator, IsTheTruth) {
 }
 
 TEST(UkfEstimator, IsBetterThanItsSensorsAndKnowsHowGoodItIs) {
-  const Quality q = quality({});
+  const Quality q = quality(*estimator("ukf", {}));
   EXPECT_EQ(q.worst, UkfStatus::ok);
   for (int i = 0; i < 12; ++i) EXPECT_LT(q.estimate_error(i), q.sensor_error(i)) << i;
   for (int i = 3; i < 6; ++i) EXPECT_LT(q.estimate_error(i), 0.5 * q.sensor_error(i)) << i;
@@ -157,7 +157,7 @@ TEST(UkfEstimator, WhatADopplerLogShowsOverGroundIsTheSumOfBothVelocities) {
 TEST(UkfEstimator, IsTooSureOfItselfIfTheMemoryOfTheNoiseIsLeftOut) {
   const Quality q = quality({{"measurement_noise", "marginal"}});
   EXPECT_GT(q.nees, 48.0);
-  const Quality white = quality({});
+  const Quality white = quality(*estimator("ukf", {}));
   EXPECT_LT(white.estimate_error(6), q.estimate_error(6));
 }
 

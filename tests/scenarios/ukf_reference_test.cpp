@@ -69,7 +69,9 @@ double difference(const A& a, const B& b) {
 
 TEST(UkfReference, WeightsAgree) {
   int cases = 0;
-  for (const auto& [name, quantities] : reference()) {
+  for (const auto& each : reference()) {
+    const auto& name = each.first;
+    const auto& quantities = each.second;
     if (name.rfind("W_", 0) != 0) continue;
     ++cases;
     const auto value = [&](const char* quantity) { return quantities.at(quantity).at({0, 0}); };

@@ -185,7 +185,7 @@ TEST_P(EverySolver, DoesNotTakeTheEdgeOfALossForAMinimum) {
     }
   };
   const Problem problem = posed(least_squares_problem(
-      {Vector2d(0, 0)}, {differentiated_blocks<2>(Bowl{}), std::make_shared<Broken>(), {}}));
+      Vector2d(0, 0), {differentiated_blocks<2>(Bowl{}), std::make_shared<Broken>(), {}}));
   const Solution solution = solver->solve(problem);
   EXPECT_EQ(name_of(solution.status), "diverged") << solution.backend_says;
 }
@@ -301,7 +301,7 @@ TEST_P(EverySolver, KeepsToItsBudgetAndNeverEndsWorseThanItStarted) {
     EXPECT_TRUE(solution.x.allFinite());
     EXPECT_TRUE(solution.status == Status::budget || solution.status == Status::converged)
         << name_of(solution.status);
-    if (solver->refuses(least_squares_problem({Vector2d::Zero()},
+    if (solver->refuses(least_squares_problem(Vector2d::Zero(),
                                               {differentiated_blocks<2>(Bowl{}), nullptr, {}}))) {
       continue;  // a search of the box need not begin at the start
     }
@@ -335,7 +335,7 @@ TEST_P(EverySolver, NamesTheKnownOptionsWhenOneIsUnknown) {
 
 TEST_P(EverySolver, DoesNotCallAWrongGradientConverged) {
   const Problem problem =
-      posed(least_squares_problem({Vector2d(5, 5)}, {std::make_shared<WrongSign>(), nullptr, {}}));
+      posed(least_squares_problem(Vector2d(5, 5), {std::make_shared<WrongSign>(), nullptr, {}}));
   const Solution solution = solver->solve(problem);
   if (solution.status == Status::converged) {  // those that use none may find the lowest point
     EXPECT_NEAR((Vector2d(solution.x) - Vector2d(3, -2)).norm(), 0.0, 1e-2);

@@ -137,7 +137,7 @@ TEST_P(EnrolledRegistration, MovesWithItsPointsAndIgnoresTheirOrderAndTheScaleOf
         for (PointPair& p : other) p.from = motion * p.from;
         break;
       case 2:
-        std::ranges::rotate(other, other.begin() + 2);
+        std::rotate(other.begin(), other.begin() + 2, other.end());
         std::swap(other[0], other[1]);
         break;
       default:

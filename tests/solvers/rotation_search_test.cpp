@@ -53,10 +53,9 @@ TEST(Turns, KnowWhichRotationsOnlyPermuteThem) {
 }
 
 TEST(Turns, RefuseAStepThatIsNoStep) {
-  EXPECT_THROW(Turns(0.0), InputError);
-  EXPECT_THROW(Turns(-10.0), InputError);
-  EXPECT_THROW(Turns(361.0), InputError);
-  EXPECT_THROW(Turns(std::numeric_limits<double>::quiet_NaN()), InputError);
+  for (const double step : {0.0, -10.0, 361.0, std::numeric_limits<double>::quiet_NaN()}) {
+    EXPECT_THROW(Turns{step}, InputError) << step;
+  }
 }
 
 TEST(RotationSearch, GivesTheAnswerOfThePlainLoop) {
