@@ -26,6 +26,9 @@ cmake --preset asan >/dev/null
 cmake --build --preset asan
 ctest --test-dir build/asan --output-on-failure --exclude-regex 'install|python|browser|slurm'
 
+step 'the same bits from two compilers'
+/usr/bin/python3 tests/same_bits.py build/ci/bin/shoal build/asan/bin/shoal --scenarios 10
+
 step 'format and lint'
 /usr/bin/python3 tests/lint.py build/asan build/ci
 
