@@ -181,7 +181,7 @@ INSTANTIATE_TEST_SUITE_P(Behaviours, PlannerOf,
                          [](const auto& tested) { return shoal::tests::test_name(tested.param); });
 
 TEST(AllocationCount, SeesAllocationsOfLibraries) {
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+#ifdef SHOAL_SANITIZED
   GTEST_SKIP() << "the sanitizers have an operator new of their own";
 #endif
   const std::size_t before = shoal::tests::allocations();

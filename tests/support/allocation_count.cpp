@@ -29,8 +29,7 @@ std::size_t shoal::tests::heap_requests() noexcept {
   return heap_count;
 }
 
-// The sanitizers bring operators of their own; under them nothing is counted.
-#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+#ifndef SHOAL_SANITIZED
 
 // The forms for arrays and the ones that do not throw call these, by the standard's defaults.
 void* operator new(std::size_t size) {

@@ -2,6 +2,15 @@
 
 #include <cstddef>
 
+// The sanitizers have an operator new and a malloc of their own: under them nothing is counted.
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)  // g++
+#define SHOAL_SANITIZED
+#elif defined(__has_feature)  // clang++
+#if __has_feature(address_sanitizer) || __has_feature(thread_sanitizer)
+#define SHOAL_SANITIZED
+#endif
+#endif
+
 namespace shoal::tests {
 
 /// How often this thread has asked operator new for memory so far.
