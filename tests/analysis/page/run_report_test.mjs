@@ -129,7 +129,7 @@ test("trails can be short, and come out the same played or scrubbed", async () =
     const {player} = window.shoal;
     const colours = () => {
       player.draw();
-      const {canvas} = player.trails;
+      const {canvas} = player.maps[0].trails;
       const copy = document.createElement("canvas");
       [copy.width, copy.height] = [canvas.width, canvas.height];
       copy.getContext("2d").drawImage(canvas, 0, 0);
