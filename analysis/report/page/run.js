@@ -161,8 +161,9 @@ function start() {
   const groups = chartGroups(data.series);
   const charts = new Charts(byId("curves"), byId("charts"), player);
   charts.show([{label: "", groups}]);
+  const beside = new Beside(player, charts, {data, groups});
   player.changed();
-  window.shoal = {player, trial, charts};
+  window.shoal = {player, trial, charts, beside};
 }
 
 start();
