@@ -33,9 +33,11 @@ class TrialMap {
   draw(player) {
     if (this.camera.width < 1 || this.camera.height < 1) return;  // the page has no room for it yet
     const ctx = this.canvas.getContext("2d");
-    ctx.setTransform(this.ratio, 0, 0, this.ratio, 0, 0);
+    // Of a size that is no whole number of pixels the last would stay half transparent.
+    ctx.setTransform(1, 0, 0, 1, 0, 0);
     ctx.fillStyle = look.paper;
-    ctx.fillRect(0, 0, this.camera.width, this.camera.height);
+    ctx.fillRect(0, 0, this.canvas.width, this.canvas.height);
+    ctx.setTransform(this.ratio, 0, 0, this.ratio, 0, 0);
     const scene = {...this.seen(player), camera: this.camera, look, trailSeconds: player.trailSeconds};
     for (const layer of LAYERS) {
       if (!player.shown.has(layer.name) || !this.has(layer)) continue;
