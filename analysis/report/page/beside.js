@@ -88,7 +88,8 @@ class Beside {
 
   /** The map of the other run, below or beside the first, both with a line that names them. */
   addMap() {
-    const canvas = element("canvas", {id: "other-map", tabindex: "0", role: "img"});
+    const canvas = element("canvas", {id: "other-map", tabindex: "0", role: "img",
+                                      "aria-label": "Map of the other swarm"});
     const close = element("button", {type: "button", id: "close-other",
                                      "aria-label": "Close the other run"}, "Close");
     close.addEventListener("click", () => {
