@@ -62,7 +62,8 @@ class Charts {
       cursor: {sync: {key: "shoal"}, drag: {x: false, y: false}, points: {size: 5}},
       legend: {live: true,
                markers: {dash: (chart, series) => curves[series - 1]?.run > 0 ? "dashed" : "solid"}},
-      scales: {x: {time: false, ...(this.player.maps.length > 1 && {range: wholeTime})}, y: {range: (chart, least, most) => niceRange(least, most)}},
+      scales: {x: {time: false, ...(this.player.maps.length > 1 && {range: wholeTime})},
+               y: {range: (chart, least, most) => niceRange(least, most)}},
       axes: [{...axis, values: (chart, ticks) => ticks.map(t => hours ? numberText(t / 3600) : t),
               incrs: hours ? [300, 600, 900, 1800, 3600, 7200, 14400, 21600, 43200, 86400]
                            : [1, 2, 5, 10, 20, 50, 100, 200, 500, 1000, 2000],
