@@ -44,3 +44,10 @@ class Camera {
     return [this.width, this.height, this.x, this.y, this.scale].join();
   }
 }
+
+/** The [least, greatest] that hold all of several. */
+function aroundAll(bounds) {
+  const along = axis => [Math.min(...bounds.map(each => each[axis][0])),
+                         Math.max(...bounds.map(each => each[axis][1]))];
+  return {x: along("x"), y: along("y")};
+}

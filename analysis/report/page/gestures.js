@@ -1,9 +1,9 @@
 "use strict";
 
-/** Mouse, fingers and wheel on the canvas: drag to pan, pinch or turn the wheel to zoom, and click a
+/** Mouse, fingers and wheel on a map: drag to pan, pinch or turn the wheel to zoom, and click a
     vehicle. */
-function takeGestures(player) {
-  const {canvas, camera} = player;
+function takeGestures(player, map) {
+  const {canvas, camera} = map;
   const fingers = new Map();
   let moved = 0;
 
@@ -41,7 +41,7 @@ function takeGestures(player) {
     const only = fingers.size === 1;
     if (!fingers.delete(event.pointerId)) return;
     if (event.type === "pointerup" && only && moved < 5) {
-      player.select(player.vehicleAt(...place(event)));
+      player.select(map.vehicleAt(player, ...place(event)));
     }
   };
   canvas.addEventListener("pointerup", lift);
@@ -60,7 +60,7 @@ const KEYS = [
   {keys: [",", "ArrowLeft"], text: ", or ←", does: "one instant back", act: player => player.step(-1)},
   {keys: [".", "ArrowRight"], text: ". or →", does: "one instant on", act: player => player.step(1)},
   {keys: ["Home"], text: "Home", does: "to the start", act: player => player.seek(0)},
-  {keys: ["End"], text: "End", does: "to the end", act: player => player.seek(player.trial.end)},
+  {keys: ["End"], text: "End", does: "to the end", act: player => player.seek(player.end)},
   {keys: ["+", "="], text: "+", does: "closer", act: player => player.camera.zoom(1.3)},
   {keys: ["-"], text: "−", does: "farther", act: player => player.camera.zoom(1 / 1.3)},
   {keys: ["0"], text: "0", does: "everything in view", act: player => player.fit()},
@@ -74,7 +74,7 @@ const KEYS = [
 ];
 
 function selectNext(player, by) {
-  const count = player.trial.size;
+  const count = player.names.length;
   player.select(player.selected < 0 ? (by > 0 ? 0 : count - 1)
                                     : (player.selected + by + count) % count);
 }
@@ -91,7 +91,8 @@ function takeKeys(player) {
     const own = {" ": "BUTTON INPUT SUMMARY A", ArrowLeft: "INPUT", ArrowRight: "INPUT", Home: "INPUT",
                  End: "INPUT"}[pressed] ?? "";
     if (own.split(" ").includes(at.tagName)) return;
-    if (["Home", "End"].includes(pressed) && at !== player.canvas) return;  // they scroll the page
+    const onMap = player.maps.some(map => map.canvas === at);
+    if (["Home", "End"].includes(pressed) && !onMap) return;  // they scroll the page
     const entry = KEYS.find(each => each.keys.includes(pressed));
     if (!entry) return;
     event.preventDefault();

@@ -8,7 +8,8 @@ const look = {
   read() {
     const style = getComputedStyle(document.documentElement);
     this.name = style.getPropertyValue("--name").trim();
-    for (const colour of ["paper", "ink", "quiet", "line", "ground", "accent", "current", "band"]) {
+    for (const colour of ["paper", "ink", "quiet", "line", "ground", "accent", "current", "band",
+                          "other", "other-band"]) {
       this[colour] = style.getPropertyValue(`--${colour}`).trim();
     }
   },

@@ -6,7 +6,6 @@ const byId = id => document.getElementById(id);
 function wirePlayback(player) {
   const {trial} = player;
   const scrub = byId("scrub");
-  scrub.max = trial.end;
   scrub.step = "any";
   scrub.addEventListener("input", () => player.seek(Number(scrub.value)));
   // "any" leaves the width of a key's step to the browser, which takes a whole second.
@@ -42,51 +41,62 @@ function wirePlayback(player) {
     player.changed();
   });
 
-  for (const layer of player.layers()) {
-    const box = element("input", {type: "checkbox", id: `layer-${layer.name}`});
-    box.checked = layer.shown;
-    box.addEventListener("change", () => player.show(layer.name, box.checked));
-    byId("layers").append(element("label", {}, box, layer.label));
-  }
-
+  showChoices(player);
   const vehicle = byId("vehicle");
-  vehicle.append(element("option", {value: -1}, "none"));
-  trial.names.forEach((name, i) => vehicle.append(element("option", {value: i}, name)));
   vehicle.addEventListener("change", () => player.select(Number(vehicle.value)));
 
   let spokenAt = null;
   player.listeners.push(() => {
+    scrub.max = player.end;
     scrub.value = player.time;
     scrub.setAttribute("aria-valuetext", clockText(player.time));
-    byId("clock").textContent = `${clockText(player.time)} / ${clockText(trial.end)}`;
+    byId("clock").textContent = `${clockText(player.time)} / ${clockText(player.end)}`;
     byId("play").textContent = player.playing ? "Pause" : "Play";
     vehicle.value = player.selected;
     byId("crowd").hidden = !player.crowded();
-    showNumbers(player);
+    const states = player.maps.map(map => map.seen(player));
+    byId("hint").hidden = player.selected >= 0;
+    showNumbers(byId("numbers"), states[0]);
     // Spoken when it rests: nobody can follow a voice at every frame.
-    const at = `${player.time} ${player.selected}`;
+    const labels = player.maps.map(({label}) => label && `${capital(label)}: `);
+    const at = [player.time, player.selected, ...labels].join();
     if (!player.playing && at !== spokenAt) {
       spokenAt = at;
-      byId("said").textContent = stateText(player);
-      player.canvas.setAttribute("aria-label", `Map of the swarm. ${stateText(player)}`);
+      const texts = states.map((state, r) => labels[r] + stateText(state));
+      byId("said").textContent = texts.join(" ");
+      player.maps.forEach(({canvas}, r) => {
+        canvas.setAttribute("aria-label", `Map of the swarm. ${texts[r]}`);
+      });
     }
   });
 }
 
-function stateText({trial, time, selected}) {
+/** The layers and vehicles that there are to choose from. */
+function showChoices(player) {
+  byId("layers").replaceChildren(element("legend", {}, "Shown"));
+  for (const layer of player.layers()) {
+    const box = element("input", {type: "checkbox", id: `layer-${layer.name}`});
+    box.checked = player.shown.has(layer.name);
+    box.addEventListener("change", () => player.show(layer.name, box.checked));
+    byId("layers").append(element("label", {}, box, layer.label));
+  }
+  byId("vehicle").replaceChildren(
+    element("option", {value: -1}, "none"),
+    ...player.names.map((name, i) => element("option", {value: i}, name)));
+}
+
+function stateText({trial, time, over, selected}) {
   const left = trial.names.map((name, i) => i).filter(i => !trial.lost(i, time));
   const thrusting = left.filter(i => trial.mode(i, time).thrusting).length;
   const of = selected < 0 ? "" : ` Vehicle ${trial.names[selected]} is selected.`;
   const lost = trial.size - left.length;
-  return `At ${clockText(time)}, ${thrusting} of ${left.length} vehicles thrust`
+  return `${over ? "Ended at" : "At"} ${clockText(time)}, ${thrusting} of ${left.length} vehicles thrust`
          + `${lost ? `, ${lost} are lost` : ""}.${of}`;
 }
 
 /** The numbers of the selected vehicle. */
-function showNumbers({trial, time, selected}) {
-  const list = byId("numbers");
+function showNumbers(list, {trial, time, selected}) {
   list.replaceChildren();
-  byId("hint").hidden = selected >= 0;
   if (selected < 0) return;
   const row = (term, text) => list.append(element("dt", {}, term), element("dd", {}, text));
   if (trial.lost(selected, time)) {
@@ -107,20 +117,6 @@ function showNumbers({trial, time, selected}) {
   row("Distance", `${value("distance").toFixed(0)} m`);
   row("Thrusting so far", time > 0 ? `${(100 * value("thrust_time") / time).toFixed(1)} %` : "–");
   row("In range", String(inRange(trial, selected, time).length));
-}
-
-function showMeasures() {
-  const table = byId("measures");
-  for (const {name, value, unit, meaning} of data.measures.filter(each => each.value !== null)) {
-    // On a phone a row is a grid, which would be no row of a table to a screen reader.
-    const cell = (content, attributes) => element("td", {role: "cell", ...attributes}, content);
-    table.append(element("tr", {role: "row"}, element("th", {scope: "row", role: "rowheader"}, name),
-                         cell(numberText(value), {class: "number"}), cell(unit, {class: "unit"}),
-                         cell(meaning, {class: "meaning"})));
-  }
-  const without = data.measures.filter(each => each.value === null).map(each => each.name);
-  byId("without").textContent = without.length
-    ? `Never, or not of this trial: ${without.join(", ")}.` : "";
 }
 
 function showScenario() {
@@ -145,7 +141,7 @@ function showHead() {
 function start() {
   look.start();
   showHead();
-  showMeasures();
+  showMeasures([data]);
   showScenario();
   for (const {text, does} of KEYS.filter(key => key.text)) {
     byId("keys").append(element("dt", {}, element("kbd", {}, text)), element("dd", {}, does));
@@ -157,15 +153,17 @@ function start() {
   const trial = new Trial(data);
   const player = new Player(trial, byId("map"));
   wirePlayback(player);
-  takeGestures(player);
+  takeGestures(player, player.maps[0]);
   takeKeys(player);
   look.listeners.push(() => player.changed());
   new ResizeObserver(() => player.resize()).observe(player.canvas);
   player.resize();
-  if (data.series.length > 0) new Charts(byId("charts"), data, player);
-  else byId("curves").hidden = true;
+  const groups = chartGroups(data.series);
+  const charts = new Charts(byId("curves"), byId("charts"), player);
+  charts.show([{label: "", groups}]);
+  const beside = new Beside(player, charts, {data, groups});
   player.changed();
-  window.shoal = {player, trial};
+  window.shoal = {player, trial, charts, beside};
 }
 
 start();

@@ -47,6 +47,13 @@ class Trial {
   /** The last recorded instant at or before a time. */
   instant(time) { return lastAtOrBefore(this.time, time); }
 
+  instantAfter(time) { return this.time[this.instant(time) + 1] ?? Infinity; }
+
+  instantBefore(time) {
+    const k = this.instant(time);
+    return this.time[time > this.time[k] ? k : Math.max(k - 1, 0)];
+  }
+
   /** A recorded number, between instants on a straight line. */
   value(name, vehicle, time) {
     const column = this.columns[name];

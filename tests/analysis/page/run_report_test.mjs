@@ -3,6 +3,7 @@
 //     SHOAL=build/ci/bin/shoal node --test run_report_test.mjs
 
 import assert from "node:assert/strict";
+import {readFileSync, writeFileSync} from "node:fs";
 import {after, before, test} from "node:test";
 import {join} from "node:path";
 import {launch, open, shoal, workFolder} from "./browser.mjs";
@@ -129,7 +130,7 @@ test("trails can be short, and come out the same played or scrubbed", async () =
     const {player} = window.shoal;
     const colours = () => {
       player.draw();
-      const {canvas} = player.trails;
+      const {canvas} = player.maps[0].trails;
       const copy = document.createElement("canvas");
       [copy.width, copy.height] = [canvas.width, canvas.height];
       copy.getContext("2d").drawImage(canvas, 0, 0);
@@ -255,7 +256,7 @@ test("everything works from the keyboard alone", async () => {
     await page.keyboard.press("Tab");
     reached.add(await page.evaluate(() => document.activeElement.id || document.activeElement.tagName));
   }
-  for (const id of ["look", "map", "play", "back", "on", "scrub", "speed", "closer", "farther", "fit",
+  for (const id of ["beside", "look", "map", "play", "back", "on", "scrub", "speed", "closer", "farther", "fit",
                     "trail", "vehicle", "layer-vehicles", "SUMMARY", "save"]) {
     assert.ok(reached.has(id), `${id} is never reached`);
   }
@@ -365,6 +366,300 @@ test("fits on a phone, where two fingers zoom", async () => {
   });
   const after = await state(page);
   assert.ok(Math.abs(after.scale / before.scale - 3) < 1e-6, `${after.scale / before.scale}`);
+  page.quiet();
+});
+
+// Two runs side by side: an assignment in a current for 7500 s, and potentials among obstacles.
+
+/** Opens a file of the disk beside the run of a page. */
+async function beside(page, file) {
+  await page.setInputFiles("#other-file", file);
+  await page.waitForSelector("#other-map, #refused:not([hidden])");
+}
+
+/** What is on both maps now, and how many of their pixels are not paper. */
+const pictures = page => page.evaluate(() => {
+  const {player} = window.shoal;
+  player.draw();
+  return player.maps.map(({canvas}) => {
+    const copy = document.createElement("canvas");
+    [copy.width, copy.height] = [canvas.width, canvas.height];
+    const eye = copy.getContext("2d", {willReadFrequently: true});
+    eye.drawImage(canvas, 0, 0);
+    const {data} = eye.getImageData(0, 0, copy.width, copy.height);
+    const paper = [1, 3, 5].map(at => parseInt(look.paper.slice(at, at + 2), 16));
+    let drawn = 0;
+    for (let k = 0; k < data.length; k += 4) {
+      drawn += paper.some((part, c) => data[k + c] !== part);
+    }
+    return {url: canvas.toDataURL(), drawn, size: [canvas.width, canvas.height].join()};
+  });
+});
+
+function bothDiffer(after, before, what) {
+  after.forEach(({url}, map) => assert.notEqual(url, before[map].url, `${what}: map ${map}`));
+}
+
+test("another run plays beside this one by the same clock, and waits at its end", async () => {
+  const page = await opened("redsea");
+  page.on("filechooser", chooser => chooser.setFiles(report("clutter")));
+  await page.waitForTimeout(300);  // until it listens to the browser
+  await page.focus("#beside");
+  await page.keyboard.press("Enter");
+  await page.waitForSelector("#other-map");
+  const [mine, other] = await page.evaluate(() => window.shoal.player.maps.map(({trial}) => trial.end));
+  assert.equal(mine, 7500);
+  assert.notEqual(other, mine);
+  const longer = Math.max(mine, other);
+  assert.equal(Number(await page.getAttribute("#scrub", "max")), longer);
+  const captions = await page.$$eval(".caption p", all => all.map(each => each.textContent));
+  assert.match(captions[0], /^redsea_square · .+ · seed \d+$/);
+  assert.match(captions[1], /^potentials_clutter · .+ · seed \d+$/);
+
+  const first = await pictures(page);
+  for (const {drawn, size} of first) {
+    assert.ok(drawn > 500, `${drawn} pixels`);
+    assert.equal(size, first[0].size);
+  }
+  await page.selectOption("#speed", "600");
+  await page.click("#play");
+  await advance(page, 500);
+  await page.click("#play");
+  assert.equal((await state(page)).time, 300);
+  bothDiffer(await pictures(page), first, "played");
+
+  const ended = () => page.$$eval(".end", all => all.map(each => each.hidden ? "" : each.textContent));
+  assert.deepEqual(await ended(), ["", ""]);
+  const shorter = Math.min(mine, other);
+  const short = other < mine ? 1 : 0;
+  await page.locator("#scrub").fill(String(shorter));
+  const atEnd = await pictures(page);
+  await page.focus("#map");
+  await page.keyboard.press("End");
+  assert.equal((await state(page)).time, longer);
+  const after = await pictures(page);
+  assert.equal(after[short].url, atEnd[short].url);
+  assert.notEqual(after[1 - short].url, atEnd[1 - short].url);
+  assert.match((await ended())[short], /^Ended at \d+:\d\d:\d\d$/);
+  assert.equal((await ended())[1 - short], "");
+  for (const map of ["map", "other-map"]) {
+    const ends = map === ["map", "other-map"][short];
+    assert.match(await page.getAttribute(`#${map}`, "aria-label"), ends ? /: Ended at/ : /: At/);
+  }
+  assert.match(await page.textContent("#said"), /: At .*: Ended at|: Ended at .*: At/);
+  page.quiet();
+});
+
+test("two maps have one view, the same layers and the same vehicle", async () => {
+  const page = await opened("redsea");
+  await page.evaluate(() => window.shoal.player.seek(1200));
+  await beside(page, report("clutter"));
+  const boxes = await page.$$eval("#layers input", all => all.map(box => box.id));
+  for (const layer of ["current", "obstacles", "waypoint", "trails"]) {
+    assert.ok(boxes.includes(`layer-${layer}`), layer);
+  }
+  const inView = await page.evaluate(() => window.shoal.player.maps.every(({trial, camera}) => {
+    const {x, y} = trial.bounds();
+    return x.every(east => y.every(north => {
+      const [px, py] = camera.toScreen(east, north);
+      return px > 0 && py > 0 && px < camera.width && py < camera.height;
+    }));
+  }));
+  assert.ok(inView);
+  const fitted = await pictures(page);
+  const {scale} = await state(page);
+  await page.click("#closer");
+  bothDiffer(await pictures(page), fitted, "closer");
+  await page.click("#fit");
+  assert.equal((await state(page)).scale, scale);
+  await page.locator("#other-map").hover({position: {x: 100, y: 100}});
+  await page.mouse.wheel(0, -300);
+  await page.waitForFunction(before => window.shoal.player.camera.scale > 1.2 * before, scale);
+  const zoomed = await pictures(page);
+  bothDiffer(zoomed, fitted, "wheel on the other map");
+  const box = await page.locator("#other-map").boundingBox();
+  await page.mouse.move(box.x + 200, box.y + 200);
+  await page.mouse.down();
+  await page.mouse.move(box.x + 240, box.y + 180, {steps: 3});
+  await page.mouse.up();
+  bothDiffer(await pictures(page), zoomed, "drag on the other map");
+  await page.locator("#other-map").focus();
+  await page.keyboard.press("0");
+  assert.equal((await state(page)).scale, scale);
+
+  const shown = await pictures(page);
+  await page.click("#layer-vehicles");
+  bothDiffer(await pictures(page), shown, "vehicles");
+  await page.click("#layer-vehicles");
+  const place = await page.evaluate(() => {
+    const [, {trial, camera}] = window.shoal.player.maps;
+    const [x, y] = camera.toScreen(...trial.position(2, 1200));
+    return {x, y};
+  });
+  await page.locator("#other-map").click({position: place});
+  const selected = (await state(page)).selected;
+  assert.ok(selected >= 0);
+  const [mine, other] = await page.evaluate(vehicle => window.shoal.player.maps.map(map =>
+    map.trial.value("distance", vehicle, map.seen(window.shoal.player).time).toFixed(0)), selected);
+  assert.ok((await page.textContent("#numbers")).includes(`Distance${mine} m`));
+  assert.ok((await page.textContent("#other-numbers")).includes(`Distance${other} m`));
+  page.quiet();
+});
+
+test("measures and charts hold both runs", async () => {
+  const page = await opened("losses");
+  await beside(page, report("clutter"));
+  const rows = await page.$$eval("#measures tr", all => all.map(row =>
+    [...row.children].map(cell => cell.textContent)));
+  const labels = rows[0].slice(1, 3);
+  assert.notEqual(labels[0], labels[1]);
+  assert.deepEqual(rows[0].filter((name, k) => k === 0 || k > 2), ["Measure", "Unit", "Meaning"]);
+  const summaries = ["losses", "clutter"].map(
+    name => JSON.parse(readFileSync(join(folder, name, "summary.json"), "utf8")).metrics);
+  let compared = 0;
+  for (const [name, ...values] of rows.slice(1)) {
+    summaries.forEach((summary, run) => {
+      const value = summary[name] ?? null;
+      if (value === null) assert.equal(values[run], "–", name);
+      else assert.ok(Math.abs(Number(values[run]) - value) <= 1e-3 * Math.abs(value), name);
+      ++compared;
+    });
+  }
+  assert.ok(compared > 40);
+  for (const summary of summaries) {
+    for (const [name, value] of Object.entries(summary)) {
+      assert.ok(value === null || rows.some(row => row[0] === name), name);
+    }
+  }
+
+  const charts = await page.evaluate(() => window.shoal.charts.charts.map(chart => {
+    const {ctx} = chart;
+    const {data} = ctx.getImageData(0, 0, ctx.canvas.width, ctx.canvas.height);
+    const pixelsOf = colour => {
+      const wanted = [1, 3, 5].map(at => parseInt(colour.slice(at, at + 2), 16));
+      let count = 0;
+      for (let k = 0; k < data.length; k += 4) {
+        count += data[k + 3] > 200 && wanted.every((part, c) => Math.abs(data[k + c] - part) < 24);
+      }
+      return count;
+    };
+    return {labels: chart.series.map(each => each.label), till: chart.scales.x.max,
+            pixels: [pixelsOf(look.accent), pixelsOf(look.other)]};
+  }));
+  const {end} = await page.evaluate(() => ({end: window.shoal.player.end}));
+  const shared = charts.filter(chart => labels.every(label =>
+    chart.labels.some(each => each.toLowerCase().startsWith(label.toLowerCase()))));
+  assert.ok(shared.length >= 3, JSON.stringify(charts));
+  for (const {pixels} of shared) assert.ok(pixels.every(count => count > 30), pixels.join());
+  for (const {till} of charts) assert.equal(till, end);
+  // Instants of one run are not those of the other; a legend has the last number before.
+  await page.evaluate(() => window.shoal.player.seek(301));
+  const legend = await page.$$eval(".chart:first-child .u-value", all => all.map(each => each.textContent));
+  assert.ok(legend.every(text => text !== "–"), legend.join());
+  page.quiet();
+});
+
+test("files that are no report of a run are refused in a sentence", async () => {
+  const page = await opened("redsea");
+  const html = readFileSync(report("clutter"), "utf8");
+  const file = (name, text) => {
+    writeFileSync(join(folder, name), text);
+    return join(folder, name);
+  };
+  const holding = data => `<script type="application/json" id="data">${data}</script>`;
+  shoal("run", "potentials_clutter", "--set", "trial.record_every_s=0", "--set", "trial.duration_s=600",
+        "--out", join(folder, "unrecorded"));
+  const before = await picture(page);
+  for (const [path, sentence] of [
+    [file("letter.html", "<p>Dear reader</p>"), /^letter\.html is no report of shoal\.$/],
+    [file("cut.html", holding('{"title": "redsea')), /^cut\.html is no report of shoal\.$/],
+    [file("study.html", holding('{"claims": {"statements": []}, "tables": []}')),
+     /^study\.html is the report of a study: .*\.$/],
+    [file("older.html", html.replace('"matches":', '"slots":')), /^older\.html is of an older form.*\.$/],
+    [file("damaged.html", html.replace(/("mode":")[^"]{8}/, "$1")), /^damaged\.html is .*damaged.*\.$/],
+    [report("unrecorded"), /^report\.html has nothing to play.*\.$/],
+  ]) {
+    await page.evaluate(() => { document.getElementById("refused").hidden = true; });
+    await beside(page, path);
+    assert.match(await page.textContent("#refused"), sentence);
+    assert.equal(await page.getAttribute("#refused", "role"), "alert");
+    assert.equal(await page.locator("#other-map").count(), 0);
+  }
+  await page.evaluate(() => { document.getElementById("refused").hidden = true; });
+  assert.equal(await picture(page), before);
+  await beside(page, report("clutter"));
+  assert.equal(await page.locator("#refused").isVisible(), false);
+  // A file that is dropped replaces the one that is open.
+  const text = readFileSync(report("losses"), "utf8");
+  await page.evaluate(dropped => {
+    const dataTransfer = new DataTransfer();
+    dataTransfer.items.add(new File([dropped], "report.html"));
+    document.body.dispatchEvent(new DragEvent("drop", {dataTransfer, bubbles: true, cancelable: true}));
+  }, text);
+  await page.waitForFunction(() => window.shoal.player.maps[1].trial.end === 1200);
+  assert.equal(await page.locator("canvas[id$=map]").count(), 2);
+  page.quiet();
+});
+
+test("when the other run is closed the page is as it was", async () => {
+  const page = await opened("losses");
+  await page.click("#closer");
+  await page.evaluate(() => {
+    window.shoal.player.seek(900);
+    window.shoal.player.select(3);
+  });
+  await page.mouse.move(0, 0);
+  const looks = async () => {
+    await page.evaluate(() => {
+      document.activeElement.blur();
+      window.shoal.player.draw();
+    });
+    return {map: await picture(page), state: await state(page),
+            label: await page.getAttribute("#map", "aria-label"),
+            ...await page.evaluate(() => ({
+              text: document.body.innerText,
+              places: [...document.querySelectorAll("body *")].map(each => {
+                const {x, y, width, height} = each.getBoundingClientRect();
+                return [each.tagName, x, y, width, height].join(" ");
+              }),
+              charts: [...document.querySelectorAll(".chart canvas")].map(each => each.toDataURL()),
+              boxes: [...document.querySelectorAll("#layers input")].map(each => each.checked)}))};
+  };
+  const before = await looks();
+  await beside(page, report("redsea"));
+  const two = await looks();
+  for (const part of ["map", "label", "text", "places", "charts"]) {
+    assert.notDeepEqual(two[part], before[part], part);
+  }
+  await page.evaluate(() => window.shoal.player.play());
+  await page.evaluate(() => window.shoal.player.seek(5000));
+  await page.focus("#close-other");
+  await page.keyboard.press("Enter");
+  assert.equal(await page.evaluate(() => document.activeElement.id), "beside");
+  assert.equal((await state(page)).time, 1200);  // its own end
+  await page.evaluate(() => {
+    window.shoal.player.pause();
+    window.shoal.player.seek(900);
+  });
+  await page.mouse.move(0, 0);
+  const after = await looks();
+  for (const part of Object.keys(before)) {
+    assert.deepEqual(after[part], before[part], part);
+  }
+  page.quiet();
+});
+
+test("on a phone the other run is below", async () => {
+  const page = await opened("redsea", {viewport: {width: 375, height: 740}, hasTouch: true,
+                                       isMobile: true});
+  await beside(page, report("clutter"));
+  const wide = await page.evaluate(() => document.scrollingElement.scrollWidth);
+  assert.ok(wide <= 375, `${wide} pixels`);
+  const [mine, other] = [await page.locator("#map").boundingBox(),
+                         await page.locator("#other-map").boundingBox()];
+  assert.deepEqual([mine.x, mine.width, mine.height], [other.x, other.width, other.height]);
+  assert.ok(other.y > mine.y + mine.height);
+  for (const {drawn} of await pictures(page)) assert.ok(drawn > 500, `${drawn} pixels`);
   page.quiet();
 });
 
