@@ -52,7 +52,7 @@ test = { kind = "between", between = { at_least = 0, at_most = 100 } }
 before(async () => {
   writeFileSync(join(folder, "study.toml"), STUDY);
   writeFileSync(join(folder, "claims.toml"), CLAIMS);
-  shoal("sweep", join(folder, "study.toml"), "--out", join(folder, "out"));
+  shoal("sweep", join(folder, "study.toml"), "--no-figures", "--out", join(folder, "out"));
   mkdirSync(join(folder, "out", "figures"));
   writeFileSync(join(folder, "out", "figures", "energy_curve.svg"),
                 '<svg xmlns="http://www.w3.org/2000/svg" width="80" height="40"><path d="M0 0L9 9"/></svg>');
