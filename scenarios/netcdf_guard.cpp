@@ -10,6 +10,7 @@
 #include <cerrno>
 #include <csignal>
 #include <fstream>
+#include <new>
 
 #include "shoal/core/error.hpp"
 
@@ -22,12 +23,23 @@ std::mutex& netcdf_mutex() {
 }
 
 constexpr rlim_t megabyte = 1U << 20;
+constexpr int out_of_memory = 2;
+
+/// What a child that did not end well says of the file.
+std::string fault_of(int status) {
+  if (WIFEXITED(status) && WEXITSTATUS(status) == out_of_memory) {
+    return "it claims to hold more than a file of its size can";
+  }
+  if (WIFSIGNALED(status) && WTERMSIG(status) == SIGXCPU) {
+    return "the netCDF library does not come to an end reading it";
+  }
+  return "the netCDF library crashes reading it";
+}
 
 void limit(__rlimit_resource resource, rlim_t most) {
   rlimit now{};
   ::getrlimit(resource, &now);
-  const rlim_t soft = std::min(most, now.rlim_max);
-  const rlimit then{soft, now.rlim_max};
+  const rlimit then{std::min(most, now.rlim_cur), now.rlim_max};
   ::setrlimit(resource, &then);
 }
 
@@ -37,7 +49,7 @@ rlim_t address_space() {
   return pages * static_cast<rlim_t>(::sysconf(_SC_PAGESIZE));
 }
 
-/// In the child: a crash is no news to anybody but its parent.
+/// Of the child: its crash is silent, and only its parent learns of it by the status.
 void be_expendable(std::uintmax_t bytes) {
   for (const int signal : {SIGSEGV, SIGABRT, SIGBUS, SIGFPE, SIGILL, SIGXCPU}) {
     std::signal(signal, SIG_DFL);
@@ -67,6 +79,8 @@ void rehearse_netcdf(const std::string& name, std::uintmax_t bytes,
     lock.unlock();
     try {
       read();
+    } catch (const std::bad_alloc&) {
+      ::_exit(out_of_memory);
     } catch (...) {  // NOLINT(bugprone-empty-catch): the reading that follows throws it again
     }
     ::_exit(0);
@@ -78,10 +92,8 @@ void rehearse_netcdf(const std::string& name, std::uintmax_t bytes,
     if (errno != EINTR) return;  // its status goes elsewhere
   }
   if (WIFEXITED(status) && WEXITSTATUS(status) == 0) return;
-  throw InputError(
-      name + ": is damaged: the netCDF library " +
-      (WIFSIGNALED(status) && WTERMSIG(status) == SIGXCPU ? "does not come to an end" : "crashes") +
-      " reading it; get the file again, or write it anew");
+  throw InputError(name + ": is damaged: " + fault_of(status) +
+                   "; get the file again, or write it anew");
 }
 
 }  // namespace shoal::scenarios

@@ -60,7 +60,7 @@ void claims(const std::string& folder);
 void report(const std::string& folder);
 /// Becomes Python, which takes the same arguments.
 void figures(const std::vector<std::string>& arguments);
-/// All of a folder, in a child process and without a word: whether it succeeded.
+/// Draws all figures of a folder in a child process, whose errors are shown: whether it succeeded.
 bool figures_drawn(const std::string& folder);
 
 }  // namespace shoal::program

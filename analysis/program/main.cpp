@@ -41,13 +41,13 @@ int complained(const std::string& message, int status) {
 constexpr int reader_has_gone = 128 + SIGPIPE;
 
 // Exit status: 0 done, 1 a run failed, 2 bad input or usage.
-int guarded(const std::function<void()>& command) {
+int guarded(const std::function<int()>& program) {
   try {
-    command();
+    const int status = program();
     if (std::fflush(stdout) != 0) {
       throw std::system_error(errno, std::generic_category(), "cannot write the output");
     }
-    return 0;
+    return status;
   } catch (const shoal::InputError& error) {
     return complained(error.what(), 2);
   } catch (const std::filesystem::filesystem_error& error) {
@@ -271,13 +271,12 @@ int shoal_program(int argc, char** argv) {
   } catch (const CLI::ParseError& error) {
     return complained(error.what() + std::string("; see shoal --help"), 2);
   }
-  return guarded(command);
+  command();
+  return 0;
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
-  int status = 0;
-  const int complaint = guarded([&] { status = shoal_program(argc, argv); });
-  return complaint != 0 ? complaint : status;
+  return guarded([&] { return shoal_program(argc, argv); });
 }

@@ -64,6 +64,14 @@ Fields header_of(const std::string& name, const LaidColumn& laid) {
   return fields;
 }
 
+/// Whether a column tells rows apart, and holds no numbers. One whose cells are all missing may be
+/// of numbers.
+bool has_labels(const Table& table, std::size_t c) {
+  return std::ranges::any_of(table.rows, [&](const std::vector<Cell>& row) {
+    return std::holds_alternative<std::string>(row[c]);
+  });
+}
+
 /// Numbers keep their names, for programs that look for them. A factor may have any name, even one
 /// of theirs, and labels of levels may differ in signs that names do not have.
 std::vector<Fields> distinct_headers(const Table& table, const Layout& layout) {
@@ -83,7 +91,7 @@ std::vector<Fields> distinct_headers(const Table& table, const Layout& layout) {
   };
   for (const bool labels : {false, true}) {
     for (std::size_t c = 0; c < table.columns.size(); ++c) {
-      if ((layout.columns[c].kind == ColumnKind::text) == labels) take(c, labels ? "_label" : "");
+      if (has_labels(table, c) == labels) take(c, labels ? "_label" : "");
     }
   }
   return headers;

@@ -29,7 +29,7 @@ struct NetcdfVariable {
   std::size_t size() const;
 };
 
-/// One netCDF file, read only, as read_netcdf() hands it to those that read.
+/// One netCDF file, read only; read_netcdf() opens it.
 ///
 /// Holds a NetcdfGuard as long as it lives: read, close, and work on what was read.
 /// Every error is an InputError that begins with the name of the file.

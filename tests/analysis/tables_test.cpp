@@ -118,7 +118,9 @@ TEST(Tables, RefuseOtherShapesAndNames) {
 
 TEST(Tables, HaveCsvWhoseColumnsHaveNamesOfTheirOwn) {
   Table table{.columns = {{"x", "m"}, {"x", "m"}, {"x_m"}}};
-  EXPECT_EQ(print(table, csv), "x_m,x_m_label,x_m_label_2\n");
+  EXPECT_EQ(print(table, csv), "x_m,x_m_2,x_m_3\n");
+  table = {.columns = {{"p"}, {"q"}, {"p"}}, .rows = {{"a", "b", Missing{}}}};
+  EXPECT_EQ(print(table, csv).substr(0, 12), "p_label,q,p\n") << "numbers that are all missing";
   table = {.columns = {{"difference"}, {"difference"}, {"difference"}, {"p"}},
            .rows = {{"a", Estimate{1.0}, Estimate{2.0}, Estimate{3.0}}}};
   EXPECT_EQ(print(table, csv), "difference_label,difference,difference_2,p\na,1,2,3\n")

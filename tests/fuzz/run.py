@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Inputs that nobody would write, for every reader of files.
+"""Mutated input files for every reader: a fuzz test.
 
     tests/fuzz/run.py BUILD_DIR [TARGET ...] [--runs N] [--seconds S] [--jobs J] [--keep FOLDER]
 
@@ -24,7 +24,7 @@ TOP = HERE.parent.parent
 TARGETS = sorted(path.name.removesuffix("_fuzz.cpp") for path in HERE.glob("*_fuzz.cpp"))
 # Read by netCDF and HDF5, which forget memory of files that are damaged.
 FOREIGN = ("current", "run")
-# What grows or is slow by nature gets less to do.
+# The most bytes of inputs; elsewhere, those of the longest seed and 500 more.
 LONGEST = {"formula": 200, "set": 400, "eval": 2000, "plan": 2000}
 
 

@@ -4,6 +4,7 @@
 
 #include <csignal>
 #include <stdexcept>
+#include <vector>
 
 #include "tests/support/complaint_of.hpp"
 
@@ -38,6 +39,13 @@ TEST(NetcdfRehearsal, EndsALoop) {
   // What the kernel sends to a process that has used up its time.
   const std::string why = complaint_of_rehearsal([] { std::raise(SIGXCPU); });
   EXPECT_NE(why.find("does not come to an end"), std::string::npos) << why;
+}
+
+TEST(NetcdfRehearsal, RefusesMoreMemoryThanTheFileCanFill) {
+  // Freed unread memory could be optimised away. A sanitizer ends the process instead of throwing.
+  const std::string why =
+      complaint_of_rehearsal([] { std::vector<char>(std::size_t{4} << 30).front() = 1; });
+  EXPECT_TRUE(why.starts_with("some.nc: is damaged: ")) << why;
 }
 
 TEST(NetcdfRehearsal, MayUseTheGuard) {
