@@ -45,7 +45,7 @@ def numbers_of(table, request):
                       in zip(table.rows, values, *table.bounds(column), trials)])
     numbers = []
     for row, across in zip(table.rows, zip(*found)):
-        own = {label: row[label] for label in table.labels if label != "metric"}
+        own = {table.factor(label): row[label] for label in table.labels if label != "metric"}
         numbers += [Number(metric, {**own, **levels}, *rest) for metric, levels, *rest in across]
     return numbers
 

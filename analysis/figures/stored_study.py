@@ -25,6 +25,11 @@ class StudyTable:
         # What says of which row it is stands before all numbers.
         self.labels = header[:header.index(self.numbers[0])] if self.numbers else header
 
+    def factor(self, label):
+        """The factor of a column of labels, which numbers may have left no place for its name."""
+        name = label.removesuffix("_label")
+        return name if name in self.numbers else label
+
     def column(self, name):
         return [number(row[name]) for row in self.rows]
 

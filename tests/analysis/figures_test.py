@@ -113,6 +113,16 @@ class Figures(Desk):
         self.assertEqual({tuple(corner) for corner in band.tolist()} - {(5, 2)},
                          {(5, 1), (10, 2), (30, 4), (30, 7), (10, 4), (5, 3)})
 
+    def test_a_factor_keeps_its_name_where_numbers_have_it(self):
+        sys.path.insert(0, str(pathlib.Path(__file__).parents[2] / "analysis" / "figures"))
+        from long_form import numbers_of
+        from stored_study import StudyTable
+
+        rows = [{"metric": "energy mean (Wh)", "difference_label": "30", "difference": "2",
+                 "difference_plus_minus": "1", "difference_n": "3"}]
+        number, = numbers_of(StudyTable("t", "", rows), {})
+        self.assertEqual((number.levels, number.value), ({"difference": "30"}, 2.0))
+
     def test_indices_of_a_sensitivity(self):
         self.write("study.toml", """scenario = "construction_square"
 set = { trial.duration_s = 30 }

@@ -184,22 +184,18 @@ static void keep(int file) {
   syscall(SYS_rename, part, name);
 }
 
-int fsync(int file) {
-  NEXT(fsync);
-  change();
-  if (no_space(SYNC)) return -1;
-  const int result = next(file);
-  keep(file);
-  return result;
-}
-int fdatasync(int file) {
-  NEXT(fdatasync);
-  change();
-  if (no_space(SYNC)) return -1;
-  const int result = next(file);
-  keep(file);
-  return result;
-}
+#define SYNCING(name)              \
+  int name(int file) {             \
+    NEXT(name);                    \
+    change();                      \
+    if (no_space(SYNC)) return -1; \
+    const int result = next(file); \
+    keep(file);                    \
+    return result;                 \
+  }
+SYNCING(fsync)
+SYNCING(fdatasync)
+
 int rename(const char* from, const char* to) {
   NEXT(rename);
   change();
@@ -210,16 +206,15 @@ int unlink(const char* path) {
   change();
   return next(path);
 }
-int ftruncate(int file, off_t size) {
-  NEXT(ftruncate);
-  change();
-  return no_space(TRUNCATE) ? -1 : next(file, size);
-}
-int ftruncate64(int file, off64_t size) {
-  NEXT(ftruncate64);
-  change();
-  return no_space(TRUNCATE) ? -1 : next(file, size);
-}
+#define TRUNCATING(name, offset)                       \
+  int name(int file, offset size) {                    \
+    NEXT(name);                                        \
+    change();                                          \
+    return no_space(TRUNCATE) ? -1 : next(file, size); \
+  }
+TRUNCATING(ftruncate, off_t)
+TRUNCATING(ftruncate64, off64_t)
+
 int mkdir(const char* path, mode_t mode) {
   NEXT(mkdir);
   change();
