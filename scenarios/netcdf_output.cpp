@@ -30,6 +30,27 @@ nc_type netcdf_type(NetcdfOutput::Type type) {
   return NC_NAT;
 }
 
+struct Tally {
+  int variables = 0, attributes = 0;
+};
+
+/// Of a group and those in it.
+void count(int group, Tally& tally) {
+  int variables = 0, attributes = 0, groups = 0;
+  nc_inq_nvars(group, &variables);
+  nc_inq_natts(group, &attributes);
+  tally.variables += variables;
+  tally.attributes += attributes;
+  for (int v = 0; v < variables; ++v) {
+    nc_inq_varnatts(group, v, &attributes);
+    tally.attributes += attributes;
+  }
+  nc_inq_grps(group, &groups, nullptr);
+  std::vector<int> ids(static_cast<std::size_t>(groups));
+  nc_inq_grps(group, &groups, ids.data());
+  for (const int id : ids) count(id, tally);
+}
+
 }  // namespace
 
 NetcdfOutput::NetcdfOutput(const std::filesystem::path& path) : path_(path) {
@@ -67,6 +88,7 @@ NetcdfOutput::Variable NetcdfOutput::variable(Group group, const std::string& na
   std::vector<int> ids;
   for (const Dimension& dimension : dimensions) ids.push_back(dimension.id);
   Variable made{group.id, 0};
+  ++variables_;
   check(nc_def_var(group.id, name.c_str(), netcdf_type(type), static_cast<int>(ids.size()),
                    ids.data(), &made.id));
   if (!unit.empty()) text(made, "units", unit);
@@ -80,6 +102,7 @@ void NetcdfOutput::fill_with_nan(Variable variable) {
   const float single_nan = std::numeric_limits<float>::quiet_NaN();
   const double double_nan = std::numeric_limits<double>::quiet_NaN();
   const void* nan = type == NC_FLOAT ? static_cast<const void*>(&single_nan) : &double_nan;
+  ++attributes_;
   check(nc_def_var_fill(variable.group, variable.id, NC_FILL, nan));
 }
 
@@ -92,10 +115,12 @@ void NetcdfOutput::store_in_blocks(Variable variable, const std::vector<std::siz
 }
 
 void NetcdfOutput::text(Group group, const std::string& attribute, const std::string& value) {
+  ++attributes_;
   check(nc_put_att_text(group.id, NC_GLOBAL, attribute.c_str(), value.size(), value.c_str()));
 }
 
 void NetcdfOutput::text(Variable variable, const std::string& attribute, const std::string& value) {
+  ++attributes_;
   check(
       nc_put_att_text(variable.group, variable.id, attribute.c_str(), value.size(), value.c_str()));
 }
@@ -104,6 +129,7 @@ void NetcdfOutput::numbers(Variable variable, const std::string& attribute,
                            std::span<const double> values) {
   nc_type type = NC_NAT;
   check(nc_inq_vartype(variable.group, variable.id, &type));
+  ++attributes_;
   check(nc_put_att_double(variable.group, variable.id, attribute.c_str(), type, values.size(),
                           values.data()));
 }
@@ -132,11 +158,23 @@ void NetcdfOutput::put_block(Variable variable, const std::vector<std::size_t>& 
   check(nc_put_vara_double(variable.group, variable.id, start.data(), count.data(), values.data()));
 }
 
+// Where memory ends for a moment, the libraries leave variables and attributes out of the file and
+// report success.
+void NetcdfOutput::require_all_there(std::span<char> content) const {
+  int id = 0;
+  check(nc_open_mem("shoal", NC_NOWRITE, content.size(), content.data(), &id));
+  Tally found;
+  count(id, found);
+  nc_close(id);
+  if (found.variables != variables_ || found.attributes != attributes_) check(NC_ENOMEM);
+}
+
 void NetcdfOutput::finish() {
   open_ = false;
   NC_memio content{};
   check(nc_close_memio(id_, &content));
   const std::unique_ptr<void, decltype(&std::free)> owned(content.memory, &std::free);
+  require_all_there({static_cast<char*>(content.memory), content.size});
   write_whole_file(path_, {static_cast<const char*>(content.memory), content.size});
 }
 

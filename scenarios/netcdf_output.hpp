@@ -68,11 +68,13 @@ class NetcdfOutput {
 
  private:
   void check(int code) const;
+  void require_all_there(std::span<char> content) const;
 
   NetcdfGuard guard_;
   std::filesystem::path path_;
   int id_ = 0;
   bool open_ = false;
+  int variables_ = 0, attributes_ = 0;  // that the file must hold in the end
 };
 
 }  // namespace shoal::scenarios
