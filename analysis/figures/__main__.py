@@ -56,6 +56,8 @@ def main():
                     continue
                 if figure is not None:
                     made += style.save(figure, out, name)
+        if made and not options.only and not options.out:  # a folder of its own
+            style.remove_others(out, made)
     except NoRun as error:
         complain(error, 2)
     except OSError as error:

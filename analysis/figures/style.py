@@ -80,11 +80,26 @@ def band(axes, x, low, high, k=0, **look):
     axes.fill_between(x, low, high, facecolor=shade(k), edgecolor="none", **look)
 
 
+# In every file, so that figures that are no longer drawn can be told from files of the user.
+CREATOR = "shoal figures"
+
+
+def remove_others(folder, made):
+    """Removes the figures of earlier calls that the last one did not draw."""
+    for file in (*folder.glob("*.pdf"), *folder.glob("*.svg")):
+        if file in made:
+            continue
+        text = file.read_text("latin-1")
+        if f"({CREATOR})" in text or f">{CREATOR}<" in text:
+            file.unlink()
+
+
 def save(figure, folder, name):
     """As PDF and SVG, each there when it is complete. The same figure gives the same bytes."""
     folder.mkdir(parents=True, exist_ok=True)
     made = []
-    for ending, metadata in (("pdf", {"CreationDate": None}), ("svg", {"Date": None})):
+    for ending, metadata in (("pdf", {"CreationDate": None, "Creator": CREATOR}),
+                             ("svg", {"Date": None, "Creator": [CREATOR]})):
         file = folder / f"{name}.{ending}"
         part = folder / f".{name}.{ending}.part"
         try:

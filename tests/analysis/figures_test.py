@@ -57,6 +57,20 @@ class Figures(Desk):
         for file in self.drawn("potentials_clutter"):
             self.assertEqual((self.desk / file).read_bytes(), first[file], file)
 
+    def test_what_is_no_longer_drawn_goes_and_files_of_others_stay(self):
+        self.recorded("redsea_square")
+        self.drawn("redsea_square")
+        folder = self.desk / "redsea_square" / "figures"
+        drawn = {file.name for file in folder.iterdir()}
+        for ending in ("pdf", "svg"):
+            shutil.copy(folder / f"energy.{ending}", folder / f"earlier.{ending}")
+            (folder / f"own.{ending}").write_text("mine")
+        self.drawn("redsea_square", "--only", "energy")
+        self.drawn("redsea_square", "--out", self.desk / "redsea_square/figures")
+        self.assertIn("earlier.pdf", {file.name for file in folder.iterdir()})
+        self.drawn("redsea_square")
+        self.assertEqual({file.name for file in folder.iterdir()}, drawn | {"own.pdf", "own.svg"})
+
     def test_fonts_are_in_the_file(self):
         self.recorded("redsea_square")
         self.drawn("redsea_square", "--only", "energy", "--columns", "2", "--out", "two")
@@ -132,7 +146,7 @@ design = { kind = "saltelli", saltelli = { base_samples = 8 } }
 key = "ping.period_s"
 range = [5, 30]
 [[factor]]
-key = "guidance.drifting_radius_m"
+key = "guidance.drift.drifting_radius_m"
 range = [15, 40]
 [[sensitivity]]
 name = "indices"
