@@ -8,6 +8,8 @@
 #include <numeric>
 #include <utility>
 
+#include "shoal/core/grid_index.hpp"
+
 namespace shoal::analysis {
 namespace {
 
@@ -17,12 +19,19 @@ constexpr double next_to = 1.2;
 std::vector<std::vector<std::size_t>> neighbours(std::span<const Eigen::Vector2d> points,
                                                  double reach_m) {
   std::vector<std::vector<std::size_t>> lists(points.size());
+  if (points.size() < 2) return lists;
+  std::vector<double> x, y;
+  for (const Eigen::Vector2d& p : points) {
+    x.push_back(p.x());
+    y.push_back(p.y());
+  }
+  constexpr double least_cell_m = 1e-3;
+  GridIndex index;
+  index.build(x, y, std::max(reach_m, least_cell_m));
   for (std::size_t i = 0; i < points.size(); ++i) {
-    for (std::size_t j = 0; j < i; ++j) {
-      if ((points[i] - points[j]).norm() > reach_m) continue;
-      lists[i].push_back(j);
-      lists[j].push_back(i);
-    }
+    index.near(x[i], y[i], [&](std::size_t j) {
+      if (j != i && (points[i] - points[j]).norm() <= reach_m) lists[i].push_back(j);
+    });
   }
   return lists;
 }
@@ -48,9 +57,13 @@ void flood(std::size_t start, const std::vector<std::vector<std::size_t>>& lists
 }  // namespace
 
 double least_spacing_m(std::span<const Eigen::Vector2d> points) {
+  std::vector<Eigen::Vector2d> by_x(points.begin(), points.end());
+  std::ranges::sort(by_x, {}, [](const Eigen::Vector2d& p) { return p.x(); });
   double least = std::numeric_limits<double>::infinity();
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    for (std::size_t j = 0; j < i; ++j) least = std::min(least, (points[i] - points[j]).norm());
+  for (std::size_t i = 0; i < by_x.size(); ++i) {
+    for (std::size_t j = i; j-- > 0 && by_x[i].x() - by_x[j].x() < least;) {
+      least = std::min(least, (by_x[i] - by_x[j]).norm());
+    }
   }
   return least;
 }
