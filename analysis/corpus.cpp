@@ -64,8 +64,18 @@ Experiment to_experiment(const Json& json, const Origin& origin) {
   for (const Json& obstacle : json.at("obstacles")) {
     read(obstacles.emplace_back(), to_setting(obstacle, origin), "obstacle");
   }
-  return {json.at("scenario").get<std::string>(), to_setting(json.at("behaviour"), origin),
-          formations::Plan(std::move(names), std::move(slots), origin), std::move(obstacles)};
+  std::optional<Eigen::Vector2d> waypoint;
+  if (json.contains("waypoint")) {
+    const Json& place = json["waypoint"];
+    waypoint.emplace(place.at(0).get<double>(), place.at(1).get<double>());
+  }
+  Experiment experiment{
+      json.at("scenario").get<std::string>(), to_setting(json.at("behaviour"), origin),
+      formations::Plan(std::move(names), std::move(slots), origin), std::move(obstacles), waypoint};
+  if (!waypoint && experiment.make_behaviour()->needs_waypoint()) {
+    throw InputError(origin, "the behaviour leads to a waypoint, and there is none");
+  }
+  return experiment;
 }
 
 Situation to_situation(const Json& json, const Corpus& corpus, const Origin& origin) {
@@ -132,6 +142,9 @@ void write_corpus(const Corpus& corpus, const std::filesystem::path& file) {
     for (const scenarios::ObstacleOptions& obstacle : experiment.obstacles) {
       obstacles.push_back(
           to_json(write_options(schema_of<scenarios::ObstacleOptions>(), &obstacle)));
+    }
+    if (experiment.waypoint) {
+      line["waypoint"] = {experiment.waypoint->x(), experiment.waypoint->y()};
     }
     text += line.dump() + "\n";
   }

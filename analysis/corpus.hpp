@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -17,6 +18,7 @@ struct Experiment {
   Setting behaviour;  ///< complete, as a table with `kind`
   formations::Plan plan;
   std::vector<scenarios::ObstacleOptions> obstacles;
+  std::optional<Eigen::Vector2d> waypoint = std::nullopt;  ///< m
 
   std::unique_ptr<formations::Behaviour> make_behaviour() const;
 };

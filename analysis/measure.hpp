@@ -58,6 +58,13 @@ class Measure : public scenarios::Observer {
   /// Called once before the trial runs. Throws InputError if the scenario asks too much.
   virtual void begin(const scenarios::World& world) { (void)world; }
 
+  /// What sees the plans of a vehicle, if the measure goes by them. After begin(); of several
+  /// vehicles at a time, on several threads.
+  virtual formations::PlanObserver* plan_observer(std::size_t vehicle) {
+    (void)vehicle;
+    return nullptr;
+  }
+
   /// Seconds between two looks, 0 for none. Measures look every 5 s, as the author's log did,
   /// unless they say otherwise.
   double every_s() const override { return every_s_; }

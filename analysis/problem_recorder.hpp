@@ -1,32 +1,49 @@
 #pragma once
 
-#include <memory>
+#include <deque>
+#include <functional>
 #include <string>
 #include <vector>
 
 #include "shoal/analysis/corpus.hpp"
-#include "shoal/scenarios/world.hpp"
+#include "shoal/formations/planner.hpp"
+#include "shoal/scenarios/scenario.hpp"
 
 namespace shoal::analysis {
 
-/// Stands between a swarm and its behaviour and notes every situation in which problems are posed.
-/// The trial's numbers do not change.
+/// Notes every situation in which a vehicle solved problems. The trial's numbers do not change.
 class ProblemRecorder {
  public:
-  ProblemRecorder();
-
-  /// For TrialSettings::behaviour_hook. One recorder serves one trial.
-  scenarios::BehaviourHook hook();
+  /// For TrialSettings::plan_observer. One recorder serves one trial, and outlives it.
+  std::function<formations::PlanObserver&(std::size_t vehicle)> of_trial();
 
   /// What was noted, vehicle by vehicle, in the order of time.
   Corpus corpus(const scenarios::Scenario& scenario, const std::string& name,
                 const formations::Plan& plan) const;
 
-  /// Written by several threads, each for vehicles of its own.
-  using BySlot = std::vector<std::vector<Situation>>;
-
  private:
-  std::shared_ptr<BySlot> noted_;
+  class OfVehicle final : public formations::PlanObserver {
+   public:
+    void solved(const solvers::Problem&, const solvers::Solution&, double) override {
+      solved_ = true;
+    }
+    void solved(const solvers::RegistrationProblem&, const solvers::RegistrationSolution&,
+                double) override {
+      solved_ = true;
+    }
+    void solved(const solvers::MatchingProblem&, const solvers::MatchingSolution&,
+                double) override {
+      solved_ = true;
+    }
+    void planned(const formations::Neighbourhood& seen, const formations::Target&) override;
+
+    std::vector<Situation> noted;
+
+   private:
+    bool solved_ = false;  // a problem, since the last plan
+  };
+
+  std::deque<OfVehicle> vehicles_;  // stay where they are
 };
 
 }  // namespace shoal::analysis

@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "shoal/core/text.hpp"
-#include "shoal/formations/posed_problems.hpp"
+#include "shoal/formations/solving.hpp"
 
 namespace shoal::analysis {
 namespace {
@@ -27,11 +27,49 @@ struct Entrants {
     }
   }
 
-  template <class Problem>
-  void meet(const Problem& problem, std::size_t turn) {
-    if (turn >= solvers.size()) return;
-    family.contenders[turn].answers.push_back(answered(*solvers[turn], problem));
+  /// One solver after another, not problem by problem: a large one would leave the others a cold
+  /// cache, and a time that is not theirs.
+  template <class Problems>
+  void meet(const Problems& problems) {
+    for (std::size_t k = 0; k < solvers.size(); ++k) {
+      for (const auto& problem : problems) {
+        family.contenders[k].answers.push_back(answered(*solvers[k], problem));
+      }
+    }
   }
+};
+
+/// The problems of a corpus, as long as its behaviours live.
+class Gathered final : public solvers::SolveObserver {
+ public:
+  struct Registration {
+    std::vector<solvers::PointPair> pairs;
+    const solvers::Loss* loss;
+    operator solvers::RegistrationProblem() const { return {pairs, loss}; }  // NOLINT: is one
+  };
+  struct Matching {
+    std::vector<Eigen::Vector2d> points, slots;
+    double ownship_weight;
+    operator solvers::MatchingProblem() const { return {points, slots, ownship_weight}; }  // NOLINT
+  };
+
+  void solved(const solvers::Problem& problem, const solvers::Solution&, double) override {
+    smooth.push_back(problem);
+  }
+  void solved(const solvers::RegistrationProblem& problem, const solvers::RegistrationSolution&,
+              double) override {
+    registration.push_back({{problem.pairs.begin(), problem.pairs.end()}, problem.loss});
+  }
+  void solved(const solvers::MatchingProblem& problem, const solvers::MatchingSolution&,
+              double) override {
+    matching.push_back({{problem.points.begin(), problem.points.end()},
+                        {problem.slots.begin(), problem.slots.end()},
+                        problem.ownship_weight});
+  }
+
+  std::vector<solvers::Problem> smooth;
+  std::vector<Registration> registration;
+  std::vector<Matching> matching;
 };
 
 void require_known(const ComparisonSettings& settings,
@@ -65,23 +103,10 @@ void require_known(const ComparisonSettings& settings,
 
 }  // namespace
 
-/// Shows each problem to one solver of its family: the one whose turn it is.
-class SolverComparison::Arena final : public formations::ProblemViewer {
- public:
-  explicit Arena(const ComparisonSettings& settings)
+struct SolverComparison::Entries {
+  explicit Entries(const ComparisonSettings& settings)
       : smooth(settings), registration(settings), matching(settings) {}
 
-  void see(const solvers::Problem& problem) override { smooth.meet(problem, turn); }
-  void see(const solvers::RegistrationProblem& problem) override {
-    registration.meet(problem, turn);
-  }
-  void see(const solvers::MatchingProblem& problem) override { matching.meet(problem, turn); }
-
-  std::size_t turns() const {
-    return std::max({smooth.solvers.size(), registration.solvers.size(), matching.solvers.size()});
-  }
-
-  std::size_t turn = 0;
   Entrants<solvers::Solver> smooth;
   Entrants<solvers::RegistrationSolver> registration;
   Entrants<solvers::Matcher> matching;
@@ -91,7 +116,7 @@ SolverComparison::SolverComparison(const ComparisonSettings& settings) {
   require_known(settings, {&Registry<solvers::Solver>::instance(),
                            &Registry<solvers::RegistrationSolver>::instance(),
                            &Registry<solvers::Matcher>::instance()});
-  arena_ = std::make_unique<Arena>(settings);
+  entries_ = std::make_unique<Entries>(settings);
 }
 
 SolverComparison::~SolverComparison() = default;
@@ -103,22 +128,28 @@ void SolverComparison::run(const Corpus& corpus) {
     behaviours.push_back(experiment.make_behaviour());
     obstacles.push_back(scenarios::make_obstacles(experiment.obstacles));
   }
-  // One solver after another, not problem by problem: a large one would leave the others a cold
-  // cache, and a time that is not theirs.
-  for (arena_->turn = 0; arena_->turn < arena_->turns(); ++arena_->turn) {
-    for (const Situation& situation : corpus.situations) {
-      const formations::Neighbourhood seen{situation.neighbours, situation.own_slot, situation.own,
-                                           obstacles[situation.experiment]};
-      behaviours[situation.experiment]->pose(seen, corpus.experiments[situation.experiment].plan,
-                                             *arena_);
-    }
+  Gathered problems;
+  solvers::SolveObserver* const observers[] = {&problems};
+  const formations::Solving solving(nullptr, observers);
+  for (const Situation& situation : corpus.situations) {
+    const Experiment& experiment = corpus.experiments[situation.experiment];
+    behaviours[situation.experiment]->step(
+        {.neighbours = situation.neighbours,
+         .own_slot = situation.own_slot,
+         .own = situation.own,
+         .obstacles = obstacles[situation.experiment],
+         .waypoint = experiment.waypoint.value_or(Eigen::Vector2d::Zero())},
+        experiment.plan, solving);
   }
+  entries_->smooth.meet(problems.smooth);
+  entries_->registration.meet(problems.registration);
+  entries_->matching.meet(problems.matching);
 }
 
 std::vector<const ContenderFamily*> SolverComparison::families() const {
   std::vector<const ContenderFamily*> met;
   for (const ContenderFamily* family :
-       {&arena_->smooth.family, &arena_->registration.family, &arena_->matching.family}) {
+       {&entries_->smooth.family, &entries_->registration.family, &entries_->matching.family}) {
     if (!family->contenders.empty() && !family->contenders.front().answers.empty()) {
       met.push_back(family);
     }

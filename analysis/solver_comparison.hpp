@@ -45,8 +45,8 @@ class SolverComparison {
   std::vector<const ContenderFamily*> families() const;
 
  private:
-  class Arena;
-  std::unique_ptr<Arena> arena_;
+  struct Entries;
+  std::unique_ptr<Entries> entries_;
 };
 
 /// Shares are of the problems posed; evaluations, times and gaps are of those solved. The gap is

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -25,12 +26,17 @@ struct Trial {
 struct TrialSettings {
   int threads = 1;
   bool record = true;  ///< at trial.record_every_s, if that is above 0
-  scenarios::BehaviourHook behaviour_hook = {};
   std::vector<scenarios::Observer*> observers = {};  ///< besides measures and record
+  /// Sees what the planners of vehicles do, if given: of each vehicle, by its slot.
+  std::function<formations::PlanObserver&(std::size_t vehicle)> plan_observer = {};
 };
 
+/// How often to look, in mission time, to notice within a second that a trial should end: some 5 s
+/// of the mission, which take less also in a swarm of 100,000.
+double watching_interval_s(const scenarios::Scenario& scenario);
+
 /// Runs a scenario. The measures are the same for any number of threads, with or without recording.
-/// Throws InputError if the scenario cannot be run.
+/// Throws InputError if the scenario cannot be run, or would keep more than a billion numbers.
 Trial run_trial(const scenarios::Scenario& scenario, const TrialSettings& settings = {});
 
 /// The content of summary.json.

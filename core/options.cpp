@@ -55,6 +55,7 @@ void read_options(const Schema& schema, void* object, const Setting& table,
 Setting write_options(const Schema& schema, const void* object) {
   Setting table;
   for (const Option& option : schema.options) {
+    if (option.given && !option.given(object)) continue;
     table.table().emplace_back(option.name, option.write(object));
   }
   return table;

@@ -59,12 +59,14 @@ struct Option {
   const RegistryBase* choice = nullptr;  ///< set for a member of a family
   std::function<void(void* object, const Setting&, const std::string& key)> read;
   std::function<Setting(const void* object)> write;
+  std::function<bool(const void* object)> given;  ///< of one that may be left out; or empty
 
   /// The range with its unit: `from 0 to 180 deg`.
   std::string range_text() const;
 };
 
-/// All options of one struct, and their defaults (those of a value-initialised struct).
+/// All options of one struct, and their defaults: those of a value-initialised struct, and of a
+/// table that was left out there, what it has where it is given.
 struct Schema {
   std::vector<Option> options;
   Setting defaults;
@@ -79,7 +81,7 @@ struct Schema {
 void read_options(const Schema& schema, void* object, const Setting& table,
                   const std::string& path);
 
-/// Every option of `object`, also those that nobody set.
+/// Every option of `object`, also those that were not set, but no table that was left out.
 Setting write_options(const Schema& schema, const void* object);
 
 template <class Family>
@@ -114,6 +116,10 @@ class Options {
   /// A nested declared struct.
   template <class Nested>
   void table(std::string name, Nested T::*member, std::string meaning);
+
+  /// A nested declared struct that may be left out.
+  template <class Nested>
+  void table(std::string name, std::optional<Nested> T::*member, std::string meaning);
 
   /// Any number of declared structs: `[[name]]` in a file.
   template <class Nested>

@@ -216,6 +216,23 @@ void Options<T>::table(std::string name, Nested T::*member, std::string meaning)
 
 template <class T>
 template <class Nested>
+void Options<T>::table(std::string name, std::optional<Nested> T::*member, std::string meaning) {
+  Option option{.name = std::move(name), .meaning = std::move(meaning), .type = "a table"};
+  option.table = &schema_of<Nested>();
+  option.read = [member](void* object, const Setting& value, const std::string& key) {
+    shoal::read((static_cast<T*>(object)->*member).emplace(), value, key);
+  };
+  option.write = [member](const void* object) {
+    return write_options(schema_of<Nested>(), &*(static_cast<const T*>(object)->*member));
+  };
+  option.given = [member](const void* object) {
+    return (static_cast<const T*>(object)->*member).has_value();
+  };
+  options_.push_back(std::move(option));
+}
+
+template <class T>
+template <class Nested>
 void Options<T>::tables(std::string name, std::vector<Nested> T::*member, std::string meaning) {
   Option option{.name = std::move(name), .meaning = std::move(meaning), .type = "a list of tables"};
   const Option described = option;
@@ -245,6 +262,11 @@ const Schema& schema_of() {
     if constexpr (requires { T::noun; }) made.noun = T::noun;
     const T fresh{};
     made.defaults = write_options(made, &fresh);
+    for (const Option& option : made.options) {
+      if (option.given && !made.defaults.find(option.name)) {
+        made.defaults.table().emplace_back(option.name, option.table->defaults);
+      }
+    }
     return made;
   }();
   return schema;

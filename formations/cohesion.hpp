@@ -21,9 +21,12 @@ class Cohesion {
   virtual ~Cohesion() = default;
 
   /// Where it draws to, in metres, own frame: fixed while one problem is solved. `in_range` holds
-  /// at least one neighbour; `own_position` is that of OwnState.
+  /// at least one neighbour; `waypoint` is in the own frame, too.
   virtual Eigen::Vector2d anchor(std::span<const Neighbour> in_range,
-                                 const Eigen::Vector2d& own_position) const = 0;
+                                 const Eigen::Vector2d& waypoint) const = 0;
+
+  /// True if it draws to the waypoint.
+  virtual bool needs_waypoint() const { return false; }
 
   /// The term at a place `from_anchor` metres away from it, in metres.
   virtual PlaneValue at(const Eigen::Vector2d& from_anchor) const = 0;

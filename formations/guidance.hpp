@@ -1,12 +1,14 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <limits>
+#include <memory>
 #include <optional>
 #include <string>
-#include <vector>
 
-#include "shoal/core/options.hpp"
+#include "shoal/core/memory.hpp"
+#include "shoal/core/registry.hpp"
+#include "shoal/formations/neighbourhood.hpp"
+#include "shoal/formations/target.hpp"
 
 namespace shoal::formations {
 
@@ -21,44 +23,40 @@ struct Command {
   bool outside_envelope = false;
 };
 
-/// Steers to a relative target, then lets the vehicle drift: Rypkema 2015, sec. 3.2, Alg. 1-2,
-/// Table 3.1.
+/// Turns a target into a command: heading and speed, or to drift.
 ///
-/// Algorithm 1 as printed has no memory of having arrived and would thrust again between the slip
-/// and the drifting radius. Section 3.2 describes the latch that is here: once arrived, the vehicle
-/// drifts until it leaves the drifting radius, also when the target moves inside it.
-struct DriftGuidance {
-  enum class Slip { not_closing, receding };
+/// Stateless and thread-safe: one law serves a whole swarm. What it remembers of a vehicle between
+/// two commands is a Memory of that vehicle's planner.
+class Guidance {
+ public:
+  static constexpr const char* family = "guidance";
+  static constexpr const char* family_meaning = "turns a target into heading and speed, or drift";
 
-  double speed_m_s = 1.0;
-  double capture_radius_m = 3.0;
-  double slip_radius_m = 10.0;
-  double drifting_radius_m = 20.0;
-  Slip slip = Slip::not_closing;
-  double end_speed_scale = 0.5;
-  std::int64_t targets_filter_size = 1;
-  double period_s = 0.25;
+  virtual ~Guidance() = default;
 
-  static void declare(Options<DriftGuidance>& o);
-  std::optional<std::string> complaint() const;
+  /// `to_target`: from the vehicle to its target now (m, own frame), zero while it holds; `memory`:
+  /// what new_memory() made for the vehicle.
+  virtual Command command(const Target& target, const Eigen::Vector2d& to_target,
+                          const OwnState& own, Memory* memory) const = 0;
+  virtual std::unique_ptr<Memory> new_memory() const { return nullptr; }
 
-  /// What one vehicle remembers between commands.
-  struct State {
-    bool drifting = true;
-    double previous_distance_m = std::numeric_limits<double>::infinity();
-    std::vector<Eigen::Vector2d> recent_targets;
-  };
+  /// Time between two commands, s.
+  virtual double period_s() const = 0;
 
-  /// The command for a target given relative to the vehicle (metres, own frame).
-  Command command(const Eigen::Vector2d& relative_target, State& state) const {
-    // Most of the time, most vehicles drift near their targets.
-    const bool near = relative_target.squaredNorm() <= drifting_radius_m * drifting_radius_m;
-    if (state.drifting && near && targets_filter_size == 1) return {};
-    return steer(relative_target, state);
-  }
+  /// Whether it takes forces; any other takes places.
+  virtual bool takes_forces() const { return false; }
 
- private:
-  Command steer(const Eigen::Vector2d& relative_target, State& state) const;
+  /// Whether it goes by more of the own state than the position.
+  virtual bool needs_motion() const { return false; }
+
+  /// The highest speed that it asks for, m/s.
+  virtual double highest_speed_m_s() const = 0;
+
+  /// How far from its target a vehicle may drift, m, if it lets vehicles drift.
+  virtual std::optional<double> drifting_radius_m() const { return std::nullopt; }
 };
+
+/// The first kind of guidance that takes forces, or places.
+std::string guidance_for(bool forces);
 
 }  // namespace shoal::formations

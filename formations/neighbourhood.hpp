@@ -35,9 +35,11 @@ struct Neighbour {
 struct Neighbourhood {
   std::span<const Neighbour> neighbours;
   int own_slot = 0;
-  /// For way-points, obstacles and velocities only: formations do not depend on where they are.
+  /// For waypoints, obstacles and velocities only: formations do not depend on where they are.
   OwnState own = {};
   Obstacles obstacles = {};  ///< in the frame of the own positions
+  /// Where all vehicles are led to, in that frame; zero if there is no such place.
+  Eigen::Vector2d waypoint = Eigen::Vector2d::Zero();
 };
 
 }  // namespace shoal::formations

@@ -7,23 +7,39 @@
 
 namespace shoal::formations {
 
-namespace {
+Planner::Planner(std::shared_ptr<const Plan> plan, std::shared_ptr<const Behaviour> behaviour,
+                 std::string_view own_name, const PlannerParts& parts)
+    : plan_(std::move(plan)),
+      behaviour_(std::move(behaviour)),
+      own_slot_(plan_->index_of(own_name)),
+      filter_(parts.ping_filter),
+      guidance_(parts.guidance),
+      obstacles_(parts.obstacles),
+      waypoint_(parts.waypoint) {
+  if (behaviour_->needs_waypoint() && !waypoint_) {
+    throw InputError("the behaviour leads vehicles to a waypoint, and there is none; give one");
+  }
+  behaviour_memory_ = behaviour_->new_memory();
+  if (!guidance_) return;
+  if (behaviour_->gives_forces() && !guidance_->takes_forces()) {
+    throw InputError("the behaviour gives forces, and the guidance takes places");
+  }
+  if (!behaviour_->gives_forces() && guidance_->takes_forces()) {
+    throw InputError("the behaviour gives places, and the guidance takes forces");
+  }
+  guidance_memory_ = guidance_->new_memory();
+}
 
-bool finite(const OwnState& state) {
+bool Planner::finite(const OwnState& state) {
   return state.position.allFinite() && state.velocity.allFinite() &&
          std::isfinite(state.heading_rad) && std::isfinite(state.speed_m_s) &&
          std::isfinite(state.turn_rate_rad_s);
 }
 
-}  // namespace
-
-Planner::Planner(std::shared_ptr<const Plan> plan, std::shared_ptr<const Behaviour> behaviour,
-                 std::string_view own_name, const PingFilterOptions& filter, Obstacles obstacles)
-    : plan_(std::move(plan)),
-      behaviour_(std::move(behaviour)),
-      own_slot_(plan_->index_of(own_name)),
-      filter_(filter),
-      obstacles_(obstacles) {}
+void Planner::refuse_command() const {
+  if (!guidance_) throw InputError("this planner has no guidance, and gives targets only");
+  throw InputError("a command needs a finite own state; the last command holds");
+}
 
 void Planner::receive(const Ping& ping, const Eigen::Vector2d& own_position) {
   if (!std::isfinite(ping.time_s) || !std::isfinite(ping.range_m) || ping.range_m < 0.0 ||
@@ -57,8 +73,13 @@ const Target& Planner::plan(double time_s, const OwnState& own) {
                      " s comes after a ping or a plan of t = " + shortest(latest_s) +
                      " s; time must not go back");
   }
-  target_ = behaviour_->step({filter_.neighbours(time_s, own.position), own_slot_, own, obstacles_},
-                             *plan_);
+  const Neighbourhood seen{.neighbours = filter_.neighbours(time_s, own.position),
+                           .own_slot = own_slot_,
+                           .own = own,
+                           .obstacles = obstacles_,
+                           .waypoint = waypoint_.value_or(Eigen::Vector2d::Zero())};
+  target_ = behaviour_->step(seen, *plan_, Solving(behaviour_memory_.get(), solve_observers_));
+  for (PlanObserver* observer : observers_) observer->planned(seen, target_);
   last_plan_s_ = time_s;
   target_position_ = own.position + target_.position;
   return target_;

@@ -40,7 +40,7 @@ void require_clear(const std::vector<ObstacleOptions>& options, const std::vecto
         refuse("the start of " + plan.name(static_cast<int>(i)) + " at " + place(start));
       }
     }
-    if (waypoint && covers(*waypoint)) refuse("the way-point at " + place(*waypoint));
+    if (waypoint && covers(*waypoint)) refuse("the waypoint at " + place(*waypoint));
   }
 }
 

@@ -22,7 +22,7 @@ struct ObstacleOptions {
 std::vector<std::shared_ptr<const formations::Obstacle>> make_obstacles(
     const std::vector<ObstacleOptions>& options);
 
-/// Throws InputError, pointing at the obstacle, if one covers a start or the way-point.
+/// Throws InputError, pointing at the obstacle, if one covers a start or the waypoint.
 void require_clear(const std::vector<ObstacleOptions>& options, const std::vector<Start>& starts,
                    const formations::Plan& plan, const std::optional<Eigen::Vector2d>& waypoint);
 

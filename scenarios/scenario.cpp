@@ -7,6 +7,7 @@
 #include "shoal/scenarios/currents/netcdf_time.hpp"
 #include "shoal/scenarios/inheritance.hpp"
 #include "shoal/scenarios/library_path.hpp"
+#include "shoal/scenarios/moved_keys.hpp"
 #include "shoal/solvers/matching/matching.hpp"
 
 namespace shoal::scenarios {
@@ -43,12 +44,12 @@ void PlannerOptions::declare(Options<PlannerOptions>& o) {
            "time between two plans if update is \"tick\"; a multiple of trial.tick_s");
 }
 
-void ArrivalOptions::declare(Options<ArrivalOptions>& o) {
-  using A = ArrivalOptions;
-  o.number("radius_m", &A::radius_m, "m", above(0),
-           "a vehicle has arrived once it was as near to the way-point as this");
-  o.flag("ends_trial", &A::ends_trial,
-         "the trial ends when all vehicles have arrived, if their behaviour has a way-point");
+void Waypoint::declare(Options<Waypoint>& o) {
+  o.number("x_m", &Waypoint::x_m, "m", {}, "east of the origin");
+  o.number("y_m", &Waypoint::y_m, "m", {}, "north of the origin");
+  o.number("radius_m", &Waypoint::radius_m, "m", above(0),
+           "a vehicle has arrived once it was as near as this");
+  o.flag("ends_trial", &Waypoint::ends_trial, "the trial ends when all vehicles have arrived");
 }
 
 void NodeLoss::declare(Options<NodeLoss>& o) {
@@ -83,7 +84,7 @@ void QualityOptions::declare(Options<QualityOptions>& o) {
   o.integer("budget", &Q::budget, "", in(1, 1e15),
             "distances looked at before the proof is given up with a wider gap, for one instant, "
             "if alignment is \"rigid\"");
-  o.number("delta_theta_deg", &Q::delta_theta_deg, "deg", in(solvers::least_delta_theta_deg, 180),
+  o.number("delta_theta_deg", &Q::delta_theta_deg, "deg", solvers::delta_theta_range_deg(),
            "step of the rotations, if alignment is \"centroid\" or \"nearest_point\"");
 }
 
@@ -96,9 +97,8 @@ void Scenario::declare(Options<Scenario>& o) {
   o.choice("behaviour", &S::behaviour, "turns what was heard into a target");
   o.table("planner", &S::planner, "when targets are renewed");
   o.table("ping_filter", &S::ping_filter, "averaging and forgetting of what was heard");
-  o.table("guidance", &S::guidance, "steering to the target, and drifting there");
-  o.table("envelope", &S::envelope, "what is asked for at most where behaviours give forces");
-  o.table("arrival", &S::arrival, "reaching the way-point of a behaviour that has one");
+  o.choice("guidance", &S::guidance, "turns targets into headings and speeds, or drift");
+  o.table("waypoint", &S::waypoint, "where vehicles are led to, if their behaviour leads");
   o.table("ping", &S::ping, "the acoustic channel");
   o.choice("current", &S::current, "the motion of the water");
   o.tables("obstacle", &S::obstacles, "what vehicles keep clear of, if their behaviour does");
@@ -164,7 +164,7 @@ class CrossChecks {
   void times() const {
     const double tick = s_.trial.tick_s;
     whole_ticks(s_.trial.duration_s, "trial.duration_s");
-    whole_ticks(s_.guidance.period_s, "guidance.period_s");
+    whole_ticks(s_.guidance.make()->period_s(), "guidance." + s_.guidance.kind() + ".period_s");
     if (s_.planner.update == PlannerOptions::Update::tick) {
       whole_ticks(s_.planner.period_s, "planner.period_s");
     }
@@ -205,14 +205,25 @@ class CrossChecks {
   }
 
   void way() const {
-    if (s_.planner.update == PlannerOptions::Update::tick) return;
     const auto behaviour = s_.behaviour.make();
-    if (!behaviour->needs_clock()) return;
-    refuse({"planner.update", "behaviour.kind"},
-           "behaviour " + s_.behaviour.kind() +
-               (behaviour->waypoint() ? " leads vehicles that hear nobody, too"
-                                      : " goes by the own motion, which changes between pings") +
-               "; set planner.update = \"tick\"");
+    const std::string name = "behaviour " + s_.behaviour.kind();
+    if (behaviour->needs_waypoint() && !s_.waypoint) {
+      refuse({"behaviour.kind"}, name + " leads to a waypoint; set waypoint.x_m and waypoint.y_m");
+    }
+    if (behaviour->gives_forces() != s_.guidance.make()->takes_forces()) {
+      refuse({"guidance.kind", "behaviour.kind"},
+             name + " gives " + (behaviour->gives_forces() ? "forces" : "places") +
+                 ", which guidance " + s_.guidance.kind() +
+                 " does not take; set guidance.kind = \"" +
+                 formations::guidance_for(behaviour->gives_forces()) + '"');
+    }
+    if (s_.planner.update == PlannerOptions::Update::tick || !behaviour->needs_clock()) return;
+    refuse(
+        {"planner.update", "behaviour.kind"},
+        name +
+            (behaviour->needs_waypoint() ? " leads vehicles that hear no other, too"
+                                         : " goes by the own motion, which changes between pings") +
+            "; set planner.update = \"tick\"");
   }
 
   void end() const {
@@ -247,6 +258,7 @@ Scenario read_scenario(const Setting& root) {
   TomlFiles files;
   const Setting settings = with_inherited(root, files).settings;
   require_known_names(settings);
+  require_no_moved_keys(settings);
   Scenario scenario;
   read(scenario, settings, "");
   CrossChecks(scenario, settings).run();

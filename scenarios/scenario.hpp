@@ -8,7 +8,6 @@
 
 #include "shoal/core/registry.hpp"
 #include "shoal/formations/behaviour.hpp"
-#include "shoal/formations/conditioning.hpp"
 #include "shoal/formations/guidance.hpp"
 #include "shoal/formations/ping_filter.hpp"
 #include "shoal/formations/plan.hpp"
@@ -49,12 +48,15 @@ struct PlannerOptions {
   static void declare(Options<PlannerOptions>& o);
 };
 
-/// Arriving at the way-point of a behaviour that has one.
-struct ArrivalOptions {
+/// The place that all vehicles are led to, by behaviours that lead to one.
+struct Waypoint {
+  double x_m = 0.0;
+  double y_m = 0.0;
   double radius_m = 60.0;
   bool ends_trial = false;
 
-  static void declare(Options<ArrivalOptions>& o);
+  static void declare(Options<Waypoint>& o);
+  Eigen::Vector2d place() const { return {x_m, y_m}; }
 };
 
 /// Random vehicles lost one after the other: Rypkema 2015, sec. 4.4.
@@ -96,9 +98,8 @@ struct Scenario {
   Choice<formations::Behaviour> behaviour{"rigid_registration"};
   PlannerOptions planner;
   formations::PingFilterOptions ping_filter;
-  formations::DriftGuidance guidance;
-  formations::PerformanceEnvelope envelope;
-  ArrivalOptions arrival;
+  Choice<formations::Guidance> guidance{"drift"};
+  std::optional<Waypoint> waypoint;
   PingOptions ping;
   Choice<Current> current{"none"};
   std::vector<ObstacleOptions> obstacles;

@@ -17,12 +17,8 @@ struct Variable {
   double (*value)(const World&, std::size_t);
 };
 
-Eigen::Vector2d position(const World& w, std::size_t i) {
-  return {w.swarm().x_m[i], w.swarm().y_m[i]};
-}
-
 Eigen::Vector2d target(const World& w, std::size_t i) {
-  return w.planner(i).target_from(position(w, i));
+  return w.planner(i).target_from(w.swarm().own_position(i));
 }
 
 const Variable variables[] = {
@@ -37,9 +33,9 @@ const Variable variables[] = {
      [](const World& w, std::size_t i) { return w.swarm().speed_m_s[i]; }},
     {"thrusting", "1", "1 under a command to move, 0 drifting",
      [](const World& w, std::size_t i) { return w.command(i).thrust ? 1.0 : 0.0; }},
-    {"target_x", "m", "target relative to the vehicle, east",
+    {"target_x", "m", "target relative to where the vehicle believes to be, east",
      [](const World& w, std::size_t i) { return target(w, i).x(); }},
-    {"target_y", "m", "target relative to the vehicle, north",
+    {"target_y", "m", "target relative to where the vehicle believes to be, north",
      [](const World& w, std::size_t i) { return target(w, i).y(); }},
     {"target_reason", "1", "why the target is what it is; see flag_meanings",
      [](const World& w, std::size_t i) {
@@ -93,6 +89,10 @@ std::string reason_meanings() {
 }
 
 }  // namespace
+
+double TrialRecord::numbers_of_each_vehicle() {
+  return static_cast<double>(std::size(variables));
+}
 
 void TrialRecord::observe(const World& world) {
   columns_.resize(std::size(variables));

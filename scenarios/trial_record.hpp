@@ -15,6 +15,8 @@ class TrialRecord final : public Observer {
 
   double every_s() const override { return every_s_; }
   void observe(const World& world) override;
+  /// How many numbers it keeps of each vehicle at each instant.
+  static double numbers_of_each_vehicle();
 
   /// Writes trajectories as CF-1.8 describes them (sec. 9.3.1, orthogonal arrays: all vehicles
   /// share the time axis). The file appears under its name only when it is complete. Throws

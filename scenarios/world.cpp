@@ -21,7 +21,7 @@ constexpr std::int64_t never = std::numeric_limits<std::int64_t>::max();
 
 }  // namespace
 
-World::World(const Scenario& scenario, int threads, const BehaviourHook& hook)
+World::World(const Scenario& scenario, int threads)
     : scenario_(scenario),
       threads_(threads),
       random_(static_cast<std::uint64_t>(scenario.trial.seed)),
@@ -39,16 +39,19 @@ World::World(const Scenario& scenario, int threads, const BehaviourHook& hook)
   current_->require_duration(scenario.trial.duration_s);
   const std::vector<Start> starts = scenario.swarm.start.make()->place(*plan_, random_);
   behaviour_ = scenario.behaviour.make();
-  waypoint_ = behaviour_->waypoint();
-  require_clear(scenario.obstacles, starts, *plan_, waypoint_);
+  guidance_ = scenario.guidance.make();
+  const auto waypoint =
+      scenario.waypoint ? std::optional(scenario.waypoint->place()) : std::nullopt;
+  require_clear(scenario.obstacles, starts, *plan_, waypoint);
   swarm_ = scenario.swarm.vehicle.make()->launch(starts, scenario.energy, random_, tick_s);
 
-  if (hook) behaviour_ = hook(std::move(behaviour_), *plan_);
   for (std::size_t i = 0; i < n; ++i) {
     planners_.emplace_back(plan_, behaviour_, plan_->name(static_cast<int>(i)),
-                           scenario.ping_filter, obstacles_);
+                           formations::PlannerParts{.ping_filter = scenario.ping_filter,
+                                                    .guidance = guidance_,
+                                                    .obstacles = obstacles_,
+                                                    .waypoint = waypoint});
   }
-  guidance_.resize(n);
   commands_.resize(n);
   hydrophones_.resize(n);
   forget_tick_.assign(n, never);
@@ -66,7 +69,7 @@ World::World(const Scenario& scenario, int threads, const BehaviourHook& hook)
   }
 
   end_tick_ = ticks_of(scenario.trial.duration_s, tick_s, "trial.duration_s");
-  guidance_ticks_ = ticks_of(scenario.guidance.period_s, tick_s, "guidance.period_s");
+  guidance_ticks_ = ticks_of(guidance_->period_s(), tick_s, "guidance.drift.period_s");
   planner_ticks_ = scenario.planner.update == PlannerOptions::Update::tick
                        ? ticks_of(scenario.planner.period_s, tick_s, "planner.period_s")
                        : 0;
@@ -115,7 +118,7 @@ void World::run(std::span<Observer* const> observers) {
   const std::size_t blocks = (size() + block_size - 1) / block_size;
 
   while (true) {
-    if (waypoint_ && scenario_.arrival.ends_trial && all_arrived()) end_now("arrival");
+    if (arrival_ends_trial() && all_arrived()) end_now("arrival");
     lose_vehicles();
     send_pings();
     for (std::size_t k = 0; k < looks.size(); ++k) {
@@ -145,8 +148,8 @@ void World::run(std::span<Observer* const> observers) {
 }
 
 std::int64_t World::next_event(std::span<const std::int64_t> looks) const {
-  // Whoever looks must not change when the trial ends.
-  if (waypoint_ && scenario_.arrival.ends_trial) return tick_ + 1;
+  // Observers must not change when the trial ends.
+  if (arrival_ends_trial()) return tick_ + 1;
   const auto following = [this](std::int64_t ticks) { return (tick_ / ticks + 1) * ticks; };
   std::int64_t next = end_tick_;
   for (const std::int64_t ticks : looks) next = std::min(next, following(ticks));
@@ -228,6 +231,10 @@ const formations::OwnState* World::reported(std::size_t sender) {
   return &report;
 }
 
+bool World::arrival_ends_trial() const {
+  return scenario_.waypoint && scenario_.waypoint->ends_trial;
+}
+
 bool World::all_arrived() const {
   for (std::size_t i = 0; i < size(); ++i) {
     if (!lost(i) && arrived_s_[i] < 0.0) return false;
@@ -239,7 +246,9 @@ void World::note_arrivals(std::size_t first, std::size_t last, double time_s) {
   for (std::size_t i = first; i < last; ++i) {
     if (arrived_s_[i] >= 0.0 || lost(i)) continue;
     const Eigen::Vector2d place(swarm_->x_m[i], swarm_->y_m[i]);
-    if ((place - *waypoint_).norm() <= scenario_.arrival.radius_m) arrived_s_[i] = time_s;
+    if ((place - scenario_.waypoint->place()).norm() <= scenario_.waypoint->radius_m) {
+      arrived_s_[i] = time_s;
+    }
   }
 }
 
@@ -256,15 +265,11 @@ void World::note_empty(std::size_t first, std::size_t last, double time_s) {
 }
 
 void World::guide(std::size_t i) {
-  const double period_s = scenario_.guidance.period_s;
-  if (const auto& force = planners_[i].last_target().force_m_s2) {
-    commands_[i] =
-        formations::commanded(*force, swarm_->own_state(i), period_s, scenario_.envelope);
-    if (commands_[i].outside_envelope) logbooks_[i].outside_envelope_s += period_s;
-  } else {
-    commands_[i] =
-        scenario_.guidance.command(planners_[i].target_from(swarm_->own_position(i)), guidance_[i]);
-  }
+  // Only own positions come without a virtual call.
+  commands_[i] = planners_[i].command(
+      guidance_->needs_motion() ? swarm_->own_state(i)
+                                : formations::OwnState{.position = swarm_->own_position(i)});
+  if (commands_[i].outside_envelope) logbooks_[i].outside_envelope_s += guidance_->period_s();
 }
 
 void World::listen_and_plan(std::size_t i, std::int64_t tick) {
@@ -329,7 +334,7 @@ void World::run_block(std::size_t first, std::size_t last, std::int64_t until) {
       log.thrusting_s += commands_[i].thrust ? tick_s : 0.0;
     }
     note_empty(first, last, static_cast<double>(tick + 1) * tick_s);
-    if (waypoint_) note_arrivals(first, last, static_cast<double>(tick + 1) * tick_s);
+    if (scenario_.waypoint) note_arrivals(first, last, static_cast<double>(tick + 1) * tick_s);
   }
 }
 

@@ -25,10 +25,6 @@ class Observer {
   virtual std::optional<QualitySoFar> quality() const { return std::nullopt; }
 };
 
-/// Puts something between the vehicles and their behaviour, as to record what it is asked.
-using BehaviourHook = std::function<std::shared_ptr<const formations::Behaviour>(
-    std::shared_ptr<const formations::Behaviour>, const formations::Plan&)>;
-
 /// What one vehicle has done since mission start.
 struct Logbook {
   double thrusting_s = 0.0;         ///< time under a command to move (not latched as drifting)
@@ -47,8 +43,13 @@ struct Logbook {
 class World {
  public:
   /// Opens everything the scenario names. Throws InputError.
-  explicit World(const Scenario& scenario, int threads = 1, const BehaviourHook& hook = {});
+  explicit World(const Scenario& scenario, int threads = 1);
   ~World();
+
+  /// Shows an observer what the planner of a vehicle does; see Planner::observe().
+  void observe_planner(std::size_t i, formations::PlanObserver& observer) {
+    planners_[i].observe(observer);
+  }
 
   /// Runs the mission to its end. Each observer looks at time zero, then at its own interval, and
   /// last at the end of the mission if that is one of its instants. The end is after
@@ -68,6 +69,7 @@ class World {
     return obstacles_;
   }
   const formations::Behaviour& behaviour() const { return *behaviour_; }
+  const formations::Guidance& guidance() const { return *guidance_; }
   bool lost(std::size_t i) const { return lost_s_[i] >= 0.0; }
   std::size_t lost_count() const { return lost_count_; }
   const Logbook& logbook(std::size_t i) const { return logbooks_[i]; }
@@ -83,7 +85,7 @@ class World {
     return empty_s_[i] >= 0.0 && scenario_.energy.battery == Energy::Battery::limits;
   }
 
-  /// When a vehicle was first at the behaviour's way-point, or negative.
+  /// When a vehicle was first at the waypoint, or negative.
   double arrived_s(std::size_t i) const { return arrived_s_[i]; }
 
   double propulsion_wh(std::size_t i) const;
@@ -102,6 +104,7 @@ class World {
   bool silent(std::size_t i) const { return lost(i) || stopped(i); }
   void note_empty(std::size_t first, std::size_t last, double time_s);
   void note_arrivals(std::size_t first, std::size_t last, double time_s);
+  bool arrival_ends_trial() const;
   bool all_arrived() const;
   std::int64_t emission_tick(std::size_t i, std::int64_t emission) const;
 
@@ -115,14 +118,13 @@ class World {
   std::unique_ptr<Current> current_;
   std::vector<std::shared_ptr<const formations::Obstacle>> obstacles_;
   std::shared_ptr<const formations::Behaviour> behaviour_;
-  std::optional<Eigen::Vector2d> waypoint_;
+  std::shared_ptr<const formations::Guidance> guidance_;
   Channel channel_;
   std::unique_ptr<Swarm> swarm_;
   std::unique_ptr<StopRule> stop_;
   std::string stopped_by_ = "duration";
 
   std::vector<formations::Planner> planners_;
-  std::vector<formations::DriftGuidance::State> guidance_;
   std::vector<formations::Command> commands_;
   std::vector<Hydrophone> hydrophones_;
   std::vector<std::int64_t> forget_tick_;  // when what was heard for the last plan is forgotten

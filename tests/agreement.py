@@ -129,7 +129,7 @@ TICK_S = 0.25
 
 
 def refreshed_every(period_s):
-    return {"planner.update": "tick", "planner.period_s": period_s, "guidance.period_s": period_s}
+    return {"planner.update": "tick", "planner.period_s": period_s, "guidance.drift.period_s": period_s}
 
 
 # scenario, behaviour, turn of the formation in degrees, read off the thesis' figures 5.45, 5.46, 5.28

@@ -40,8 +40,9 @@ def names(shoal, family):
 
 def run(shoal, scenario, behaviour, seed):
     with tempfile.TemporaryDirectory() as out:
+        guidance = "conditioned_force" if behaviour == "virtual_potential" else "drift"
         subprocess.run([shoal, "run", scenario, "--seed", str(seed), "--out", out,
-                        "--set", f"behaviour.kind={behaviour}",
+                        "--set", f"behaviour.kind={behaviour}", "--set", f"guidance.kind={guidance}",
                         "--set", f"trial.duration_s={DURATION_S}",
                         "--set", "trial.record_every_s=0"], check=True, stdout=subprocess.DEVNULL)
         metrics = json.loads((pathlib.Path(out) / "summary.json").read_text())["metrics"]
@@ -50,7 +51,7 @@ def run(shoal, scenario, behaviour, seed):
 
 def measure(shoal, seeds):
     """(scenario, behaviour) -> per measure, the values over the seeds."""
-    # Behaviours of virtual potentials lead to way-points, which only their own scenarios have; of
+    # Behaviours of virtual potentials lead to waypoints, which only their own scenarios have; of
     # those the basin, with its 256 vehicles, is a matter of its study. Pair forces are for vehicles
     # that hear one another all the time.
     cases = [(s, b) for s in names(shoal, "scenario") if s != "potentials_basin"

@@ -19,8 +19,8 @@ struct FieldEvaluation final : Evaluation {
             {"y", "m, y of the vehicle"},
             {"vx", "m/s, velocity of the vehicle along x"},
             {"vy", "m/s, velocity of the vehicle along y"},
-            {"wx", "m, x of the way-point"},
-            {"wy", "m, y of the way-point"}};
+            {"wx", "m, x of the waypoint"},
+            {"wy", "m, y of the waypoint"}};
   }
   std::vector<Column> outputs() const override {
     return {{"d", "m, signed distance of the obstacle"},
@@ -28,11 +28,11 @@ struct FieldEvaluation final : Evaluation {
             {"ny", "y of its outward unit normal"},
             {"stator_x", "m/s2, repulsion of the obstacle, A+ = 18 m"},
             {"stator_y", "m/s2"},
-            {"r_i", "alignment of eq. 28: 1 behind the obstacle, seen from the way-point"},
+            {"r_i", "alignment of eq. 28: 1 behind the obstacle, seen from the waypoint"},
             {"sigma", "sense of the rotor: 1 from x towards y, -1 the other way, 0 none"},
             {"rotor_x", "m/s2, rotor of the obstacle, A_r = 24 m"},
             {"rotor_y", "m/s2"},
-            {"wp_x", "m/s2, attraction of the way-point, A_0 = 0.05 m/s2, d_0 = 60 m"},
+            {"wp_x", "m/s2, attraction of the waypoint, A_0 = 0.05 m/s2, d_0 = 60 m"},
             {"wp_y", "m/s2"},
             {"vertex_at_cxcy_x",
              "m/s2, attraction of a cell vertex at (cx, cy), A_c = 0.05 m/s2, "

@@ -13,7 +13,7 @@ MANY = 50  # vehicles whose marks would hide their paths
 
 
 def plane(run, x, y):
-    """Axes in metres that hold these places, with obstacles and way-point; the mark of that, if
+    """Axes in metres that hold these places, with obstacles and waypoint; the mark of that, if
     there is one."""
     figure, axes = plt.subplots()
     axes.set_xlabel("East (m)")
@@ -22,7 +22,7 @@ def plane(run, x, y):
     marks = []
     if run.waypoint:
         marks = axes.plot(*run.waypoint, marker="*", color="black", markersize=7, linestyle="none",
-                          label="way-point", zorder=4)
+                          label="waypoint", zorder=4)
         shown.append([run.waypoint])
     for kind, options in run.obstacles:
         patch = axes.add_patch(shape(kind, options))
@@ -83,7 +83,7 @@ def trajectories(run):
 
 
 def basin(run):
-    """Which starts arrive: Barisic et al. 2011, figure 2. Of swarms that go to a way-point and are
+    """Which starts arrive: Barisic et al. 2011, figure 2. Of swarms that go to a waypoint and are
     large enough for a picture."""
     if not run.waypoint or run.by_vehicle("x").shape[1] < MANY:
         return None

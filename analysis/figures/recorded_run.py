@@ -64,15 +64,12 @@ class RecordedRun:
 
     @property
     def waypoint(self):
-        """(east, north), or nothing if the behaviour leads to no place."""
-        behaviour = self.scenario["behaviour"]
-        options = behaviour[behaviour["kind"]]
-        if "waypoint_x_m" not in options:
-            return None
-        return options["waypoint_x_m"], options["waypoint_y_m"]
+        """(east, north), or nothing if there is none."""
+        place = self.scenario.get("waypoint")
+        return (place["x_m"], place["y_m"]) if place else None
 
     def arrived(self):
-        """Of each vehicle, whether a recorded instant finds it at the way-point."""
+        """Of each vehicle, whether a recorded instant finds it at the waypoint."""
         x, y = self.waypoint
         away = numpy.hypot(self.by_vehicle("x") - x, self.by_vehicle("y") - y)
-        return (away <= self.scenario["arrival"]["radius_m"]).any(axis=0)
+        return (away <= self.scenario["waypoint"]["radius_m"]).any(axis=0)

@@ -16,7 +16,7 @@ constexpr std::size_t few = 64;
 ///
 /// Fragments are the connected parts of the graph of vehicles within acoustic range of one another,
 /// at the end of the mission. The least separation is over all looks, 5 s apart (every tick where
-/// vehicles go to a way-point or past obstacles), and has no value if no two vehicles ever were
+/// vehicles go to a waypoint or past obstacles), and has no value if no two vehicles ever were
 /// within acoustic range.
 class Cohesion final : public Measure {
  public:
@@ -30,7 +30,7 @@ class Cohesion final : public Measure {
   }
 
   void begin(const scenarios::World& world) override {
-    const bool close = world.behaviour().waypoint() || !world.obstacles().empty();
+    const bool close = world.scenario().waypoint || !world.obstacles().empty();
     every_s_ = close ? world.scenario().trial.tick_s : log_interval_s(world);
   }
 

@@ -29,7 +29,7 @@ class CurrentSpeed final : public Measure {
     const auto mean = count_ > 0 ? std::optional(sum_ / count_) : std::nullopt;
     results.add("current_speed_mean_m_s", mean);
     results.add("current_speed_ratio",
-                mean ? std::optional(*mean / world.scenario().guidance.speed_m_s) : std::nullopt);
+                mean ? std::optional(*mean / world.guidance().highest_speed_m_s()) : std::nullopt);
   }
 
  private:

@@ -8,9 +8,9 @@
 namespace shoal::analysis {
 namespace {
 
-/// How a swarm makes its way: to a way-point, past obstacles, in formation.
+/// How a swarm makes its way: to a waypoint, past obstacles, in formation.
 ///
-/// Only of trials whose behaviour leads to a way-point, or that have obstacles: at every tick then.
+/// Only of trials whose behaviour leads to a waypoint, or that have obstacles: at every tick then.
 /// The cell error compares the distances of all pairs, in order of their size, with those of the
 /// plan: it does not ask which vehicle is where. Under way is until the last vehicle has arrived.
 class Passage final : public Measure {
@@ -18,23 +18,23 @@ class Passage final : public Measure {
   static void declare(Options<Passage>&) {}
 
   std::vector<Quantity> values() const override {
-    return {{"arrived_vehicles", "", "vehicles that have been at the way-point"},
-            {"stranded_share", "", "share of the vehicles that never were"},
-            {"passage_watched_s", "s", "how long vehicles had to come to the way-point"},
-            {"arrival_first_s", "s", "when the first vehicle was at the way-point",
-             "passage_watched_s"},
-            {"arrival_last_s", "s", "when the last one was, if all were", "passage_watched_s"},
-            {.name = "arrival_spread_s",
-             .unit = "s",
-             .meaning = "between the first arrival and the last, or the end if not all arrived",
-             .event = "arrival_last_s"},
-            {"clearance_min_m", "m", "closest that a vehicle came to an obstacle's edge"},
-            {"cell_error_rms_m", "m", "error of the distances between vehicles under way, rms"},
-            {"cell_error_worst_m", "m", "the same, rms over pairs, at the worst instant"},
-            {"cell_error_final_m", "m", "the same at the end"},
-            {"control_effort_m_s", "m/s", "commanded acceleration over time, mean of vehicles"},
-            {"outside_envelope_share", "",
-             "share of the time in motions from which no command is admissible, mean of vehicles"}};
+    return {
+        {"arrived_vehicles", "", "vehicles that have been at the waypoint"},
+        {"stranded_share", "", "share of the vehicles that never were"},
+        {"passage_watched_s", "s", "how long vehicles had to come to the waypoint"},
+        {"arrival_first_s", "s", "when the first vehicle was at the waypoint", "passage_watched_s"},
+        {"arrival_last_s", "s", "when the last one was, if all were", "passage_watched_s"},
+        {.name = "arrival_spread_s",
+         .unit = "s",
+         .meaning = "between the first arrival and the last, or the end if not all arrived",
+         .event = "arrival_last_s"},
+        {"clearance_min_m", "m", "closest that a vehicle came to an obstacle's edge"},
+        {"cell_error_rms_m", "m", "error of the distances between vehicles under way, rms"},
+        {"cell_error_worst_m", "m", "the same, rms over pairs, at the worst instant"},
+        {"cell_error_final_m", "m", "the same at the end"},
+        {"control_effort_m_s", "m/s", "commanded acceleration over time, mean of vehicles"},
+        {"outside_envelope_share", "",
+         "share of the time in motions from which no command is admissible, mean of vehicles"}};
   }
 
   std::vector<Quantity> series() const override {
@@ -44,7 +44,7 @@ class Passage final : public Measure {
   }
 
   void begin(const scenarios::World& world) override {
-    waypoint_ = world.behaviour().waypoint().has_value();
+    waypoint_ = world.scenario().waypoint.has_value();
     if (!waypoint_ && world.obstacles().empty()) return;
     every_s_ = world.scenario().trial.tick_s;
     grid_.begin(log_interval_s(world));
@@ -187,7 +187,7 @@ class Passage final : public Measure {
 };
 
 const Enrol<Measure, Passage> enrolled{"passage",
-                                       "the way to a way-point, past obstacles, in formation"};
+                                       "the way to a waypoint, past obstacles, in formation"};
 
 }  // namespace
 }  // namespace shoal::analysis

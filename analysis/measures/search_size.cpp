@@ -1,6 +1,3 @@
-#include <algorithm>
-#include <cmath>
-
 #include "shoal/analysis/measure.hpp"
 
 namespace shoal::analysis {
@@ -8,15 +5,17 @@ namespace {
 
 /// Of a matching problem, the size of the search that Rypkema 2015, Alg. 8, makes: every slot is
 /// tried as seed, in every rotation, with a matrix of the distances of all points seen.
-struct SearchSize final : formations::ProblemViewer {
+struct SearchSize final : solvers::SolveObserver {
   std::optional<double> assignments, distances;
 
-  void see(const solvers::Problem&) override {}
-  void see(const solvers::RegistrationProblem&) override {}
-  void see(const solvers::MatchingProblem& problem) override {
+  void solved(const solvers::Problem&, const solvers::Solution&, double) override {}
+  void solved(const solvers::RegistrationProblem&, const solvers::RegistrationSolution&,
+              double) override {}
+  void solved(const solvers::MatchingProblem& problem, const solvers::MatchingSolution& answer,
+              double) override {
+    if (answer.candidates == 0) return;
     const auto points = static_cast<double>(problem.points.size());
-    assignments =
-        static_cast<double>(problem.slots.size()) * std::floor(360.0 / problem.delta_theta_deg);
+    assignments = static_cast<double>(answer.candidates);
     distances = *assignments * points * points;
   }
 };
@@ -40,10 +39,14 @@ class SearchSizeMeasure final : public Measure {
       const auto heard = [&](std::size_t of) { return world.planner(of).last_neighbours().size(); };
       if (!world.lost(i) && (!most || heard(i) > heard(*most))) most = i;
     }
-    // Behaviours with a way-point want to know of obstacles, too, and assign no slots.
-    if (most && !world.behaviour().waypoint()) {
+    if (most) {
       const formations::Planner& planner = world.planner(*most);
-      world.behaviour().pose({planner.last_neighbours(), planner.own_slot()}, world.plan(), size);
+      solvers::SolveObserver* const observers[] = {&size};
+      world.behaviour().step({.neighbours = planner.last_neighbours(),
+                              .own_slot = planner.own_slot(),
+                              .own = world.swarm().own_state(*most),
+                              .obstacles = world.obstacles()},
+                             world.plan(), formations::Solving(nullptr, observers));
     }
     results.add("search_assignments", size.assignments);
     results.add("search_distances", size.distances);

@@ -20,23 +20,28 @@ void thin(std::vector<analysis::Situation>& situations, std::size_t keep) {
   situations.resize(keep);
 }
 
-bool needs_clock(const std::string& behaviour) {
-  return Registry<formations::Behaviour>::instance()
-      .make(behaviour, {}, "behaviour")
-      ->needs_clock();
+/// Gives a scenario what a behaviour asks for that is not its own.
+void suit(Setting& root, const std::string& kind) {
+  scenarios::apply_set(root, "behaviour.kind=" + kind);
+  const auto behaviour = Registry<formations::Behaviour>::instance().make(kind, {}, "behaviour");
+  if (behaviour->needs_clock()) scenarios::apply_set(root, "planner.update=tick");
+  if (behaviour->needs_waypoint() && !root.find("waypoint")) {
+    scenarios::apply_set(root, "waypoint.x_m=500");
+  }
+  scenarios::apply_set(root,
+                       "guidance.kind=" + formations::guidance_for(behaviour->gives_forces()));
 }
 
 analysis::Corpus recorded(const std::string& name, const std::string& behaviour,
                           const CorpusArguments& arguments) {
   Setting root = scenarios::read_toml(scenarios::find_scenario(name));
-  scenarios::apply_set(root, "behaviour.kind=" + behaviour);
+  suit(root, behaviour);
   scenarios::apply_set(root, "trial.duration_s=" + shortest(arguments.duration_s));
   scenarios::apply_set(root, "trial.seed=" + arguments.seed);
-  if (needs_clock(behaviour)) scenarios::apply_set(root, "planner.update=tick");
   const scenarios::Scenario scenario = scenarios::read_scenario(root);
   analysis::ProblemRecorder recorder;
   const analysis::Trial trial =
-      analysis::run_trial(scenario, {.record = false, .behaviour_hook = recorder.hook()});
+      analysis::run_trial(scenario, {.record = false, .plan_observer = recorder.of_trial()});
   analysis::Corpus corpus = recorder.corpus(scenario, name, trial.world->plan());
   thin(corpus.situations, static_cast<std::size_t>(arguments.keep));
   return corpus;

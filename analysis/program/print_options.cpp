@@ -41,7 +41,7 @@ void print_entries(const Schema& schema, const Setting& defaults, const std::str
 
 void print_entry(const Option& option, const Setting& fallback, const std::string& key) {
   if (option.table) {
-    fmt::print("{}: {}\n", key, option.meaning);
+    fmt::print("{}: {}{}\n", key, option.meaning, option.given ? "; may be left out" : "");
     print_entries(*option.table, fallback, key);
   } else if (option.choice) {
     print_choice(option, fallback, key);

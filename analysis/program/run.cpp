@@ -58,7 +58,7 @@ void run(const RunArguments& arguments) {
   analysis::TrialSettings settings{.threads = arguments.threads, .record = true};
   if (!problems.empty()) {
     analysis::require_writable_file(arguments.problems);
-    settings.behaviour_hook = recorder.hook();
+    settings.plan_observer = recorder.of_trial();
   }
 
   const analysis::Trial trial = analysis::run_trial(scenario, settings);

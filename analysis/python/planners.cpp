@@ -45,12 +45,21 @@ formations::PingFilterOptions filter_options(const py::dict& options) {
 class Planner {
  public:
   Planner(const Plan& plan, const std::string& behaviour, const std::string& vehicle,
-          const py::dict& options, const py::dict& ping_filter, const py::list& obstacles)
+          const py::dict& options, const py::dict& ping_filter, const py::list& obstacles,
+          const std::optional<Eigen::Vector2d>& waypoint,
+          const std::optional<std::string>& guidance, const py::dict& guidance_options)
       : plan_(std::make_shared<Plan>(plan)),
         behaviour_(Registry<Behaviour>::instance().make(behaviour, to_setting(options),
                                                         "behaviour." + behaviour)),
+        guidance_(make_guidance(
+            guidance ? *guidance : formations::guidance_for(behaviour_->gives_forces()),
+            guidance_options)),
         obstacles_(make_obstacles(obstacles)),
-        planner_(plan_, behaviour_, vehicle, filter_options(ping_filter), obstacles_) {}
+        planner_(plan_, behaviour_, vehicle,
+                 {.ping_filter = filter_options(ping_filter),
+                  .guidance = guidance_,
+                  .obstacles = obstacles_,
+                  .waypoint = waypoint}) {}
 
   void receive(const Ping& ping, const Eigen::Vector2d& position) {
     planner_.receive(ping, position);
@@ -65,12 +74,28 @@ class Planner {
     return planner_.target_from(position);
   }
 
+  formations::Command command(const OwnState& own) { return planner_.command(own); }
+
+  formations::Command command_at(const Eigen::Vector2d& position) {
+    if (guidance_->needs_motion()) {
+      throw InputError("this guidance goes by how the vehicle moves; give an OwnState");
+    }
+    return planner_.command({.position = position});
+  }
+
+  double command_period_s() const { return guidance_->period_s(); }
   std::string_view reason() const { return name_of(planner_.last_target().reason); }
   std::optional<Eigen::Vector2d> force() const { return planner_.last_target().force_m_s2; }
   double cost() const { return planner_.last_target().cost; }
   const Plan& formation() const { return *plan_; }
 
  private:
+  static std::shared_ptr<const formations::Guidance> make_guidance(const std::string& kind,
+                                                                   const py::dict& options) {
+    return Registry<formations::Guidance>::instance().make(kind, to_setting(options),
+                                                           "guidance." + kind);
+  }
+
   static std::vector<std::shared_ptr<const formations::Obstacle>> make_obstacles(
       const py::list& list) {
     std::vector<scenarios::ObstacleOptions> options;
@@ -83,6 +108,7 @@ class Planner {
 
   std::shared_ptr<const Plan> plan_;
   std::shared_ptr<const Behaviour> behaviour_;
+  std::shared_ptr<const formations::Guidance> guidance_;
   std::vector<std::shared_ptr<const formations::Obstacle>> obstacles_;
   formations::Planner planner_;
 };
@@ -184,19 +210,40 @@ void add_planners(py::module_& module) {
           py::arg("time_s"), py::arg("position"),
           "Array (neighbours, 2), metres relative to the vehicle, in the order first heard.");
 
+  using formations::Command;
+  py::class_<Command>(module, "Command",
+                      "What a vehicle's own controllers are asked for. thrust: False to drift, "
+                      "then the heading is\n"
+                      "free. heading_rad: counter-clockwise from east. acceleration_m_s2 and "
+                      "turn_rate_rad_s: on the\n"
+                      "way there, for controllers that ask. outside_envelope: the vehicle moves in "
+                      "a way from which\n"
+                      "its envelope allows no command.")
+      .def_readonly("thrust", &Command::thrust)
+      .def_readonly("heading_rad", &Command::heading_rad)
+      .def_readonly("speed_m_s", &Command::speed_m_s)
+      .def_readonly("acceleration_m_s2", &Command::acceleration_m_s2)
+      .def_readonly("turn_rate_rad_s", &Command::turn_rate_rad_s)
+      .def_readonly("outside_envelope", &Command::outside_envelope);
+
   py::class_<Planner>(
       module, "Planner",
-      "The formation planner of one vehicle, for somebody else's simulator or a real vehicle: "
-      "pings\n"
-      "in, targets out. behaviour and options are those of a scenario; vehicle: the name of the "
-      "own\n"
-      "slot. Positions: metres east and north in any fixed frame (dead reckoning will do). Raises\n"
-      "InputError.")
+      "The formation planner of one vehicle, for a simulator or a real vehicle: pings in, targets\n"
+      "and commands out. behaviour, options, ping_filter and obstacles (a list of dicts such as\n"
+      "{'shape': {'kind': 'circle', 'circle': {'radius_m': 9}}}) are those of a scenario; "
+      "vehicle:\n"
+      "the name of the own slot; waypoint: (east, north), for behaviours that lead to one;\n"
+      "guidance: a kind of shoal.members('guidance'), by default one that fits the behaviour.\n"
+      "Positions: metres east and north in any fixed frame (dead reckoning will do), which is "
+      "that\n"
+      "of obstacles and waypoint, too. Raises InputError.")
       .def(py::init<const Plan&, const std::string&, const std::string&, const py::dict&,
-                    const py::dict&, const py::list&>(),
+                    const py::dict&, const py::list&, const std::optional<Eigen::Vector2d>&,
+                    const std::optional<std::string>&, const py::dict&>(),
            py::arg("plan"), py::arg("behaviour"), py::arg("vehicle"),
            py::arg("options") = py::dict(), py::arg("ping_filter") = py::dict(),
-           py::arg("obstacles") = py::list())
+           py::arg("obstacles") = py::list(), py::arg("waypoint") = std::nullopt,
+           py::arg("guidance") = std::nullopt, py::arg("guidance_options") = py::dict())
       .def(
           "receive", &Planner::receive, py::arg("ping"), py::arg("position"),
           "A ping was heard while the vehicle was at `position`. In time order. Raises InputError.")
@@ -210,6 +257,17 @@ void add_planners(py::module_& module) {
           py::arg("time_s"), py::arg("position"))
       .def("target", &Planner::target, py::arg("position"),
            "The last target relative to where the vehicle is now, metres. Zero before any plan().")
+      .def("command", &Planner::command, py::arg("own"),
+           "Heading and speed on the way to the last target, or to drift. To be called every\n"
+           "command_period_s. own: an OwnState, or a position where the guidance asks for no more.")
+      .def(
+          "command",
+          [](Planner& planner, const Eigen::Vector2d& position) {
+            return planner.command_at(position);
+          },
+          py::arg("own"))
+      .def_property_readonly("command_period_s", &Planner::command_period_s,
+                             "Time between two commands, s.")
       .def_property_readonly("reason", &Planner::reason, "Why the target is what it is.")
       .def_property_readonly(
           "force", &Planner::force,

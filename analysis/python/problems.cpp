@@ -119,7 +119,7 @@ HeldProblem python_problem(const py::object& cost, const Vector& start, const py
   return held;
 }
 
-/// The smooth problems that a behaviour poses to a vehicle at the origin.
+/// The smooth problems that a behaviour solves for a vehicle at the origin.
 std::vector<HeldProblem> posed(const std::string& kind, const py::dict& options,
                                const Array& neighbours, const formations::Plan& plan, int own_slot,
                                const std::vector<int>& slots) {
@@ -134,19 +134,23 @@ std::vector<HeldProblem> posed(const std::string& kind, const py::dict& options,
   for (std::size_t i = 0; i < places.size(); ++i) {
     around.push_back({places[i], 0.0, slots.empty() ? formations::anonymous : slots[i]});
   }
-  struct Viewer final : formations::ProblemViewer {
-    std::vector<HeldProblem>* seen = nullptr;
+  struct Gathered final : solvers::SolveObserver {
+    std::vector<HeldProblem> problems;
     std::shared_ptr<const void> owner;
-    void see(const Problem& problem) override { seen->push_back({problem, owner}); }
-    void see(const solvers::RegistrationProblem&) override {}
-    void see(const solvers::MatchingProblem&) override {}
+    void solved(const Problem& problem, const Solution&, double) override {
+      problems.push_back({problem, owner});
+    }
+    void solved(const solvers::RegistrationProblem&, const solvers::RegistrationSolution&,
+                double) override {}
+    void solved(const solvers::MatchingProblem&, const solvers::MatchingSolution&,
+                double) override {}
   };
-  std::vector<HeldProblem> seen;
-  Viewer viewer;
-  viewer.seen = &seen;
-  viewer.owner = behaviour;
-  behaviour->pose({.neighbours = around, .own_slot = own_slot}, plan, viewer);
-  return seen;
+  Gathered gathered;
+  gathered.owner = behaviour;
+  solvers::SolveObserver* const observers[] = {&gathered};
+  behaviour->step({.neighbours = around, .own_slot = own_slot}, plan,
+                  formations::Solving(nullptr, observers));
+  return gathered.problems;
 }
 
 Solution solve(const HeldProblem& held, const std::string& kind, const py::dict& options) {
@@ -187,13 +191,9 @@ py::dict registered(const Array& from, const Array& to, const std::optional<Vect
 }
 
 py::dict matched(const Array& seen, const Array& slots, double ownship_weight,
-                 double delta_theta_deg, const std::string& kind) {
+                 const std::string& kind, const py::dict& options) {
   const std::vector<Eigen::Vector2d> places = points(seen, "points");
   const std::vector<Eigen::Vector2d> plan = points(slots, "slots");
-  if (!(delta_theta_deg >= solvers::least_delta_theta_deg && delta_theta_deg <= 360.0)) {
-    throw InputError("delta_theta_deg is " + shortest(delta_theta_deg) + "; it takes from " +
-                     shortest(solvers::least_delta_theta_deg) + " to 360 deg");
-  }
   if (!(ownship_weight >= 0.0 && std::isfinite(ownship_weight))) {
     throw InputError("ownship_weight is " + shortest(ownship_weight) +
                      "; it takes a finite number of at least 0");
@@ -203,11 +203,10 @@ py::dict matched(const Array& seen, const Array& slots, double ownship_weight,
                      std::to_string(plan.size()) +
                      " slots; there has to be a point, and a slot for each");
   }
-  const auto matcher = Registry<solvers::Matcher>::instance().make(kind, {}, "matching." + kind);
-  const solvers::MatchingSolution solution = matcher->solve({.points = places,
-                                                             .slots = plan,
-                                                             .ownship_weight = ownship_weight,
-                                                             .delta_theta_deg = delta_theta_deg});
+  const auto matcher =
+      Registry<solvers::Matcher>::instance().make(kind, to_setting(options), "matching." + kind);
+  const solvers::MatchingSolution solution =
+      matcher->solve({.points = places, .slots = plan, .ownship_weight = ownship_weight});
   py::dict answer;
   answer["slots"] = std::vector<int>(solution.slot_of_point.begin(), solution.slot_of_point.end());
   answer["rotation_rad"] = solution.rotation;
@@ -267,10 +266,11 @@ void add_problems(py::module_& module) {
       py::arg("options") = py::dict(),
       "Minimises a problem. Raises InputError, with the reason, if the solver refuses it, and\n"
       "what the cost raises.");
-  module.def("posed", &posed, py::arg("behaviour"), py::arg("options"), py::arg("neighbours"),
-             py::arg("plan"), py::arg("own_slot") = 0, py::arg("slots") = std::vector<int>{},
-             "The smooth problems that a behaviour poses to a vehicle at the origin. neighbours:\n"
-             "array (neighbours, 2), metres in its own frame; slots: theirs in the plan.");
+  module.def(
+      "posed", &posed, py::arg("behaviour"), py::arg("options"), py::arg("neighbours"),
+      py::arg("plan"), py::arg("own_slot") = 0, py::arg("slots") = std::vector<int>{},
+      "The smooth problems that a behaviour solves for a vehicle at the origin. neighbours:\n"
+      "array (neighbours, 2), metres in its own frame; slots: theirs in the plan.");
   module.def("register", &registered, py::arg("from_points"), py::arg("to_points"),
              py::arg("weights") = std::nullopt, py::arg("solver") = "procrustes",
              py::arg("loss") = "least_squares", py::arg("options") = py::dict(),
@@ -280,8 +280,7 @@ void add_problems(py::module_& module) {
   module.def(
       "match", &matched, py::arg("points"), py::arg("slots"),
       py::arg("ownship_weight") = solvers::MatchingProblem{}.ownship_weight,
-      py::arg("delta_theta_deg") = solvers::MatchingProblem{}.delta_theta_deg,
-      py::arg("solver") = "sampled",
+      py::arg("solver") = "sampled", py::arg("options") = py::dict(),
       "Which slots points take, and how they are turned onto the plan; the own position first.\n"
       "Arrays (n, 2), metres. A dict: slots, rotation_rad, cost, usable.");
 }

@@ -2,15 +2,11 @@
 
 #include <algorithm>
 #include <chrono>
-#include <cmath>
+
+#include "shoal/analysis/trial.hpp"
 
 namespace shoal::python {
 namespace {
-
-/// About 5 s of the mission, which take less than a second also in a swarm of 100,000.
-double interval_s(double tick_s) {
-  return tick_s * std::max(1.0, std::floor(5.0 / tick_s));
-}
 
 /// A Python function of numbers, not of arrays, somewhere among the options that are chosen.
 bool has_scalar_function(const Setting& setting) {
@@ -31,7 +27,7 @@ class Watch final : public scenarios::Observer {
  public:
   Watch(const scenarios::Scenario& scenario, py::object progress)
       : progress_(std::move(progress)),
-        every_s_(interval_s(scenario.trial.tick_s)),
+        every_s_(analysis::watching_interval_s(scenario)),
         duration_s_(scenario.trial.duration_s),
         hint_due_(has_scalar_function(scenarios::resolved_scenario(scenario))) {}
 

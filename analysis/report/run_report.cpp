@@ -116,10 +116,10 @@ void add_playback(const scenarios::Scenario& scenario, const RecordedRun& run, J
     Json& edge = data["obstacles"].emplace_back(Json::array());
     for (const Eigen::Vector2d& corner : outline(*obstacle)) edge.push_back(point(corner));
   }
-  const auto waypoint = scenario.behaviour.make()->waypoint();
-  data["waypoint"] = waypoint ? point(*waypoint) : Json(nullptr);
-  data["arrival_radius_m"] = scenario.arrival.radius_m;
-  data["drifting_radius_m"] = scenario.guidance.drifting_radius_m;
+  data["waypoint"] = scenario.waypoint ? point(scenario.waypoint->place()) : Json(nullptr);
+  data["arrival_radius_m"] = scenario.waypoint ? Json(scenario.waypoint->radius_m) : Json(nullptr);
+  const auto drifting_radius_m = scenario.guidance.make()->drifting_radius_m();
+  data["drifting_radius_m"] = drifting_radius_m ? Json(*drifting_radius_m) : Json(nullptr);
   data["range_m"] = scenario.ping.range_m;
   try {
     data["current"] = current_arrows(*scenario.current.make(), region_of(run), times.back());

@@ -9,11 +9,30 @@
 
 #include "shoal/analysis/study/cell_scenarios.hpp"
 #include "shoal/analysis/study/open_sweep.hpp"
+#include "shoal/analysis/trial.hpp"
 
 namespace shoal::analysis {
 namespace {
 
 using Clock = std::chrono::steady_clock;
+
+/// Ends a trial that is no longer wanted. It is no failure, and so no std::exception.
+struct Cancelled {};
+
+class CancelWatch final : public scenarios::Observer {
+ public:
+  CancelWatch(const scenarios::Scenario& scenario, const std::atomic<bool>& cancelled)
+      : every_s_(watching_interval_s(scenario)), cancelled_(cancelled) {}
+
+  double every_s() const override { return every_s_; }
+  void observe(const scenarios::World&) override {
+    if (cancelled_) throw Cancelled{};
+  }
+
+ private:
+  double every_s_;
+  const std::atomic<bool>& cancelled_;
+};
 
 /// Runs tasks in threads and stores what they leave.
 class Crew {
@@ -29,8 +48,8 @@ class Crew {
       for (std::size_t j = 0; j < jobs; ++j) threads.emplace_back([this] { work(); });
       try {
         report_until_done();
-      } catch (...) {  // who looks on wants no more of it
-        stop_ = true;
+      } catch (...) {  // the progress callback wants no more of it
+        stop_ = cancelled_ = true;
         throw;
       }
     }
@@ -67,6 +86,7 @@ class Crew {
         sweep_.store(task, std::move(outcome));
         if (failed && settings_.fail_fast) stop_ = true;
       }
+    } catch (const Cancelled&) {  // the trial is run by the next sweep
     } catch (...) {
       const std::lock_guard lock(mutex_);
       if (!broken_) broken_ = std::current_exception();
@@ -82,7 +102,8 @@ class Crew {
     if (cell.one_at_a_time && settings_.jobs > 1 && !settings_.worker_program.empty()) {
       return trial_outcome_of_worker(settings_.worker_program, cell.scenario, sweep_.series());
     }
-    return trial_outcome(cell.scenario, sweep_.series());
+    CancelWatch watch(cell.scenario, cancelled_);
+    return trial_outcome(cell.scenario, sweep_.series(), &watch);
   }
 
   const StudyPlan& plan_;
@@ -91,8 +112,9 @@ class Crew {
   const Clock::time_point began_ = Clock::now();
 
   std::atomic<std::size_t> next_ = 0;
-  std::atomic<bool> stop_ = false;
-  std::mutex mutex_;  // of the sweep, and of what follows
+  std::atomic<bool> stop_ = false;       // no new trial
+  std::atomic<bool> cancelled_ = false;  // nor the end of those that run
+  std::mutex mutex_;                     // of the sweep, and of what follows
   std::condition_variable idle_;
   std::size_t running_ = 0;
   std::exception_ptr broken_;

@@ -9,11 +9,13 @@
 namespace shoal::analysis {
 
 TrialOutcome trial_outcome(const scenarios::Scenario& scenario,
-                           const std::vector<std::string>& series) {
+                           const std::vector<std::string>& series, scenarios::Observer* observer) {
   TrialOutcome outcome;
   const auto began = std::chrono::steady_clock::now();
   try {
-    Trial trial = run_trial(scenario, {.record = false});
+    TrialSettings settings{.record = false};
+    if (observer) settings.observers.push_back(observer);
+    Trial trial = run_trial(scenario, settings);
     outcome.metrics = std::move(trial.results.values);
     for (scenarios::Series& each : trial.results.series) {
       if (std::ranges::find(series, each.name) != series.end()) {

@@ -7,6 +7,7 @@
 
 #include "shoal/scenarios/scenario.hpp"
 #include "shoal/scenarios/series.hpp"
+#include "shoal/scenarios/world.hpp"
 
 namespace shoal::analysis {
 
@@ -19,9 +20,10 @@ struct TrialOutcome {
 };
 
 /// Runs a scenario in this thread and keeps its measures, and the series of these names. What goes
-/// wrong is part of the outcome.
+/// wrong is part of the outcome, except for what the observer throws that is no std::exception.
 TrialOutcome trial_outcome(const scenarios::Scenario& scenario,
-                           const std::vector<std::string>& series);
+                           const std::vector<std::string>& series,
+                           scenarios::Observer* observer = nullptr);
 
 /// The same in a process of its own, for solvers that do not run in several threads of one process.
 /// `program` is a shoal: it is called with `trial-worker`. Throws SystemError if it cannot be run.

@@ -2,7 +2,6 @@
 #include <memory>
 #include <vector>
 
-#include "shoal/core/angles.hpp"
 #include "shoal/formations/behaviour.hpp"
 #include "shoal/solvers/matching/matching.hpp"
 #include "shoal/solvers/registration/registration.hpp"
@@ -13,7 +12,6 @@ namespace {
 struct AssignmentRegistrationOptions {
   double contact_rangeout_m = 650.0;
   double ownship_weight = 0.1;
-  double delta_theta_deg = 45.0;
   Choice<solvers::Matcher> matching{"sampled"};
 
   static void declare(Options<AssignmentRegistrationOptions>& o) {
@@ -22,56 +20,42 @@ struct AssignmentRegistrationOptions {
              "neighbours further away are ignored (Rypkema 2015, Table 3.7)");
     o.number("ownship_weight", &A::ownship_weight, "", in(0, 1e3),
              "weight of the own position; the author's trials ran with 1");
-    o.number("delta_theta_deg", &A::delta_theta_deg, "deg", in(solvers::least_delta_theta_deg, 180),
-             "step of the search over rotations; the thesis used 45 without currents, 10 in them");
     o.choice("matching", &A::matching, "finds slots and rotation");
   }
 };
 
 /// Finds out which slots the vehicle and its neighbours take, moves the plan onto them, and goes to
-/// the slot found for the vehicle: Rypkema 2015, sec. 3.7, Alg. 8. Needs no ids.
+/// the slot found for the vehicle: Rypkema 2015, sec. 3.7, Alg. 8. Needs no ids. Remembers what its
+/// matching does.
 class AssignmentRegistration final : public Behaviour {
  public:
   explicit AssignmentRegistration(const AssignmentRegistrationOptions& options)
-      : options_(options), matcher_(options.matching.make()) {}
+      : options_(options),
+        matcher_(options.matching.make()),
+        registration_(Choice<solvers::RegistrationSolver>("procrustes").make()) {}
 
   bool needs_ids() const override { return false; }
+  std::unique_ptr<Memory> new_memory() const override { return matcher_->new_memory(); }
 
-  Target step(const Neighbourhood& seen, const Plan& plan) const override {
+  using Behaviour::step;
+  Target step(const Neighbourhood& seen, const Plan& plan, const Solving& solving) const override {
     thread_local std::vector<Eigen::Vector2d> points;
     collect(seen, plan.size(), points);
     if (points.size() < 2) return Target::hold(Reason::no_neighbour);
 
-    const solvers::MatchingSolution match = matcher_->solve(matching(points, plan, seen.own_slot));
+    const solvers::MatchingProblem problem{points, plan.slots(), options_.ownship_weight};
+    const solvers::MatchingSolution match = solving.solve(*matcher_, problem, solving.memory());
     if (!match.usable()) return Target::hold(Reason::solver_failed);
+    const Eigen::Vector2d& own_slot = plan.slot(match.slot_of_point[0]);
 
     thread_local std::vector<solvers::PointPair> pairs;
     pair_up(points, match, plan, pairs);
-    solvers::Procrustes registration;
-    for (const solvers::PointPair& p : pairs) registration.add(p.from, p.to, p.weight);
-    const solvers::RegistrationSolution fit = registration.solve();
+    const auto fit = solving.solve(*registration_, solvers::RegistrationProblem{pairs});
     if (fit.status != solvers::RegistrationStatus::fitted) return Target::hold(Reason::degenerate);
-    return Target::at_slot(fit.T_to_from, plan.slot(match.slot_of_point[0]), match.cost);
-  }
-
-  void pose(const Neighbourhood& seen, const Plan& plan, ProblemViewer& viewer) const override {
-    std::vector<Eigen::Vector2d> points;
-    collect(seen, plan.size(), points);
-    if (points.size() < 2) return;
-    viewer.see(matching(points, plan));
-    const solvers::MatchingSolution match = matcher_->solve(matching(points, plan));
-    if (!match.usable()) return;
-    std::vector<solvers::PointPair> pairs;
-    pair_up(points, match, plan, pairs);
-    viewer.see(solvers::RegistrationProblem{pairs});
+    return Target::at_slot(fit.T_to_from, own_slot, match.cost);
   }
 
  private:
-  solvers::MatchingProblem matching(std::span<const Eigen::Vector2d> points, const Plan& plan,
-                                    int asker = -1) const {
-    return {points, plan.slots(), options_.ownship_weight, options_.delta_theta_deg, asker};
-  }
-
   void pair_up(std::span<const Eigen::Vector2d> points, const solvers::MatchingSolution& match,
                const Plan& plan, std::vector<solvers::PointPair>& pairs) const {
     pairs.clear();
@@ -96,6 +80,7 @@ class AssignmentRegistration final : public Behaviour {
 
   AssignmentRegistrationOptions options_;
   std::shared_ptr<const solvers::Matcher> matcher_;
+  std::shared_ptr<const solvers::RegistrationSolver> registration_;
 };
 
 const Enrol<Behaviour, AssignmentRegistrationOptions> enrolled{

@@ -133,24 +133,22 @@ class AttractionRepulsion final : public Behaviour {
     potential->prepare(options.separation_m);
     potential_ = std::move(potential);
     const Neighbour somebody{{options.separation_m, 0.0}};
-    const solvers::Problem usual(Eigen::Vector2d::Zero(), cost_of({&somebody, 1}, {}, 0));
+    const solvers::Problem usual(Eigen::Vector2d::Zero(), cost_of({&somebody, 1}, {}));
     if (const auto why = solver_->refuses(usual)) {
       refuse(options.solver, *why + "; choose a solver for two unknowns without bounds");
     }
   }
 
   bool needs_ids() const override { return options_.lattice == Lattice::squares; }
+  bool needs_waypoint() const override { return cohesion_->needs_waypoint(); }
 
-  Target step(const Neighbourhood& seen, const Plan&) const override {
+  using Behaviour::step;
+  Target step(const Neighbourhood& seen, const Plan&, const Solving& solving) const override {
     const auto problem = problem_of(seen);
     if (!problem) return Target::hold(Reason::no_neighbour);
-    const solvers::Solution solution = solver_->solve(*problem);
+    const solvers::Solution solution = solving.solve(*solver_, *problem);
     if (!solution.usable()) return Target::hold(Reason::solver_failed);
     return Target::at(solution.x.head<2>(), solution.cost);
-  }
-
-  void pose(const Neighbourhood& seen, const Plan&, ProblemViewer& viewer) const override {
-    if (const auto problem = problem_of(seen)) viewer.see(*problem);
   }
 
  private:
@@ -162,13 +160,13 @@ class AttractionRepulsion final : public Behaviour {
       if (needs_ids() && n.slot == anonymous) continue;
       if (n.position.norm() <= options_.contact_rangeout_m) in_range.push_back(n);
     }
-    const AttractionRepulsionCost cost = cost_of(in_range, seen.own.position, seen.own_slot);
+    const AttractionRepulsionCost cost = cost_of(in_range, seen);
     if (cost.selected.empty()) return std::nullopt;
     return std::optional<solvers::Problem>(std::in_place, Eigen::Vector2d::Zero(), cost);
   }
 
   AttractionRepulsionCost cost_of(std::span<const Neighbour> in_range,
-                                  const Eigen::Vector2d& own_position, int own_slot) const {
+                                  const Neighbourhood& seen) const {
     thread_local std::vector<int> chosen;
     selection_->select(in_range, chosen);
     AttractionRepulsionCost cost;
@@ -180,7 +178,7 @@ class AttractionRepulsion final : public Behaviour {
       }
     };
     const auto like = [&](const Neighbour& n) {
-      return options_.lattice == Lattice::squares && alike(n.slot, own_slot);
+      return options_.lattice == Lattice::squares && alike(n.slot, seen.own_slot);
     };
     select(std::not_fn(like));
     cost.alike_from = cost.selected.size();
@@ -192,7 +190,7 @@ class AttractionRepulsion final : public Behaviour {
     if (options_.combination == Combination::mean) {
       cost.share = 1.0 / static_cast<double>(chosen.size());
     }
-    cost.anchor = cohesion_->anchor(in_range, own_position);
+    cost.anchor = cohesion_->anchor(in_range, seen.waypoint - seen.own.position);
     return cost;
   }
 

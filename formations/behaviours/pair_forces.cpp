@@ -47,7 +47,7 @@ struct PairForcesOptions {
 /// Bennett 2007), Lennard-Jones with a damping term (Pinciroli et al. 2008). attraction_repulsion
 /// goes to the minimum instead, where no velocity is left to damp. The own velocity is the one that
 /// the vehicle knows of, through the water for a drifter. How large a force may be is the matter of
-/// the scenario's envelope.
+/// the guidance's envelope.
 class PairForces final : public Behaviour {
  public:
   explicit PairForces(const PairForcesOptions& options)
@@ -64,9 +64,12 @@ class PairForces final : public Behaviour {
 
   bool needs_ids() const override { return options_.lattice == Lattice::squares; }
   bool needs_clock() const override { return true; }
+  bool gives_forces() const override { return true; }
 
-  /// The cost is the potential of the neighbours, in metres.
-  Target step(const Neighbourhood& seen, const Plan&) const override {
+  /// The cost is the potential of the neighbours, in metres. Its force is a gradient, not the
+  /// answer to a problem.
+  using Behaviour::step;
+  Target step(const Neighbourhood& seen, const Plan&, const Solving&) const override {
     thread_local std::vector<Neighbour> in_range;
     thread_local std::vector<int> chosen;
     in_range.clear();
@@ -92,9 +95,6 @@ class PairForces final : public Behaviour {
     if (!force.allFinite() || !std::isfinite(potential)) return Target::hold(Reason::solver_failed);
     return Target::push(force, potential);
   }
-
-  /// Its force is a gradient, not the answer to a problem.
-  void pose(const Neighbourhood&, const Plan&, ProblemViewer&) const override {}
 
  private:
   PairForcesOptions options_;

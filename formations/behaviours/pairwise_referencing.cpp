@@ -90,20 +90,10 @@ class PairwiseReferencing final : public Behaviour {
 
   bool needs_ids() const override { return true; }
 
-  Target step(const Neighbourhood& seen, const Plan& plan) const override {
-    if (!loss_->is_square()) return step_to_least_cost(seen, plan);
-    Vector2d sum = Vector2d::Zero();
-    const Heard heard = visit_places(
-        seen, plan, [&](const Vector2d& place, double weight) { sum += weight * place; });
-    if (const auto why = nothing_to_go_by(heard)) return Target::hold(*why);
-    const bool by_weights = options_.normalisation == Normalisation::weights;
-    return Target::at(sum / (by_weights ? heard.weight : heard.placed), 0.0);
-  }
-
-  /// The least squares that the mean solves; the shrinking by normalisation = "count" comes after.
-  void pose(const Neighbourhood& seen, const Plan& plan, ProblemViewer& viewer) const override {
-    const auto posed = problem_of(seen, plan);
-    if (const auto* problem = std::get_if<solvers::Problem>(&posed)) viewer.see(*problem);
+  using Behaviour::step;
+  Target step(const Neighbourhood& seen, const Plan& plan, const Solving& solving) const override {
+    return loss_->is_square() ? step_to_mean(seen, plan, solving)
+                              : step_to_least_cost(seen, plan, solving);
   }
 
  private:
@@ -114,10 +104,34 @@ class PairwiseReferencing final : public Behaviour {
     double weight = 0.0;
   };
 
-  Target step_to_least_cost(const Neighbourhood& seen, const Plan& plan) const {
+  Target step_to_mean(const Neighbourhood& seen, const Plan& plan, const Solving& solving) const {
+    Vector2d sum = Vector2d::Zero();
+    const Heard heard = visit_places(
+        seen, plan, [&](const Vector2d& place, double weight) { sum += weight * place; });
+    if (const auto why = nothing_to_go_by(heard)) return Target::hold(*why);
+    if (solving.observed()) show_mean(seen, plan, solving);
+    const bool by_weights = options_.normalisation == Normalisation::weights;
+    return Target::at(sum / (by_weights ? heard.weight : heard.placed), 0.0);
+  }
+
+  /// The least squares that the mean solves; the shrinking by normalisation = "count" comes after.
+  void show_mean(const Neighbourhood& seen, const Plan& plan, const Solving& solving) const {
+    const auto posed = problem_of(seen, plan);
+    const auto* problem = std::get_if<solvers::Problem>(&posed);
+    if (!problem) return;
+    solving.answer(*problem, [&] {
+      return solvers::Solution{.x = problem->start,
+                               .cost = problem->evaluate(problem->start.data()),
+                               .status = solvers::Status::converged,
+                               .backend_says = "closed form"};
+    });
+  }
+
+  Target step_to_least_cost(const Neighbourhood& seen, const Plan& plan,
+                            const Solving& solving) const {
     const auto posed = problem_of(seen, plan);
     if (const Reason* why = std::get_if<Reason>(&posed)) return Target::hold(*why);
-    const solvers::Solution solution = solver_->solve(std::get<solvers::Problem>(posed));
+    const solvers::Solution solution = solving.solve(*solver_, std::get<solvers::Problem>(posed));
     if (!solution.usable()) return Target::hold(Reason::solver_failed);
     return Target::at(solution.x.head<2>(), solution.cost);
   }

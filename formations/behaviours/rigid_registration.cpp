@@ -40,12 +40,14 @@ class RigidRegistration final : public Behaviour {
 
   bool needs_ids() const override { return true; }
 
-  Target step(const Neighbourhood& seen, const Plan& plan) const override {
+  using Behaviour::step;
+  Target step(const Neighbourhood& seen, const Plan& plan, const Solving& solving) const override {
     thread_local std::vector<solvers::PointPair> storage;
     const std::span<const solvers::PointPair> pairs = pairs_of(seen, plan, storage);
     if (pairs.empty()) return Target::hold(Reason::no_neighbour);
 
-    const solvers::RegistrationSolution fit = registration_->solve({pairs, loss_.get()});
+    const solvers::RegistrationSolution fit =
+        solving.solve(*registration_, solvers::RegistrationProblem{pairs, loss_.get()});
     switch (fit.status) {
       case solvers::RegistrationStatus::fitted:
       case solvers::RegistrationStatus::not_converged:
@@ -57,12 +59,6 @@ class RigidRegistration final : public Behaviour {
         break;
     }
     return Target::hold(Reason::degenerate);
-  }
-
-  void pose(const Neighbourhood& seen, const Plan& plan, ProblemViewer& viewer) const override {
-    std::vector<solvers::PointPair> storage;
-    const std::span<const solvers::PointPair> pairs = pairs_of(seen, plan, storage);
-    if (!pairs.empty()) viewer.see(solvers::RegistrationProblem{pairs, loss_.get()});
   }
 
  private:

@@ -1,6 +1,5 @@
 #include <cmath>
 #include <memory>
-#include <optional>
 #include <utility>
 #include <vector>
 
@@ -11,10 +10,8 @@
 namespace shoal::formations {
 namespace {
 
-/// Where all vehicles are to go, and what draws and repels them on the way.
+/// What draws vehicles to the waypoint, and repels them on the way.
 struct VirtualPotentialOptions {
-  double waypoint_x_m = 500.0;
-  double waypoint_y_m = 0.0;
   double contact_rangeout_m = 200.0;
   double lead_s = 0.0;
   VirtualPotentialGains gains;
@@ -24,9 +21,6 @@ struct VirtualPotentialOptions {
   /// Also for options that are made of these and others.
   template <class Made>
   static void declare_in(Options<Made>& o) {
-    o.number("waypoint_x_m", &Made::waypoint_x_m, "m", {},
-             "east, in the frame of the own positions");
-    o.number("waypoint_y_m", &Made::waypoint_y_m, "m", {}, "north, in that frame");
     o.number("contact_rangeout_m", &Made::contact_rangeout_m, "m", above(0),
              "vehicles further away are ignored");
     o.number("lead_s", &Made::lead_s, "s", at_least(0),
@@ -37,7 +31,6 @@ struct VirtualPotentialOptions {
             "strengths and reaches of the potentials");
   }
 
-  Eigen::Vector2d waypoint() const { return {waypoint_x_m, waypoint_y_m}; }
   Eigen::Vector2d place(const OwnState& own) const { return own.position + lead_s * own.velocity; }
 };
 
@@ -60,10 +53,14 @@ class VirtualPotentialForce final : public Behaviour {
   explicit VirtualPotentialForce(const VirtualPotentialOptions& options) : options_(options) {}
 
   bool needs_ids() const override { return false; }
-  std::optional<Eigen::Vector2d> waypoint() const override { return options_.waypoint(); }
+  bool needs_waypoint() const override { return true; }
+  bool needs_clock() const override { return true; }
+  bool gives_forces() const override { return true; }
 
-  Target step(const Neighbourhood& seen, const Plan&) const override {
-    const VirtualPotential potential(options_.gains, options_.waypoint(), seen.obstacles);
+  /// Its force is a gradient, not the answer to a problem.
+  using Behaviour::step;
+  Target step(const Neighbourhood& seen, const Plan&, const Solving&) const override {
+    const VirtualPotential potential(options_.gains, seen.waypoint, seen.obstacles);
     const auto others = agents_in_range(seen, options_.contact_rangeout_m, options_.lead_s);
     const Eigen::Vector2d place = options_.place(seen.own);
     const Eigen::Vector2d force = potential.force(place, seen.own.velocity, others);
@@ -71,9 +68,6 @@ class VirtualPotentialForce final : public Behaviour {
     if (!force.allFinite() || !std::isfinite(cost)) return Target::hold(Reason::solver_failed);
     return Target::push(force, cost);
   }
-
-  /// Its force is a gradient, not the answer to a problem.
-  void pose(const Neighbourhood&, const Plan&, ProblemViewer&) const override {}
 
  private:
   VirtualPotentialOptions options_;
@@ -98,7 +92,7 @@ class VirtualPotentialStep final : public Behaviour {
  public:
   explicit VirtualPotentialStep(const VirtualPotentialStepOptions& options)
       : options_(options), solver_(options.solver.make()) {
-    const VirtualPotential open(options.gains, options.waypoint(), {});
+    const VirtualPotential open(options.gains, Eigen::Vector2d::UnitX(), {});
     if (const auto why = solver_->refuses(problem(open, {}, {}))) {
       const ChoiceSetting& setting = options.solver.setting();
       const std::string path = setting.path.empty() ? "solver" : setting.path;
@@ -109,20 +103,17 @@ class VirtualPotentialStep final : public Behaviour {
   }
 
   bool needs_ids() const override { return false; }
-  std::optional<Eigen::Vector2d> waypoint() const override { return options_.waypoint(); }
+  bool needs_waypoint() const override { return true; }
+  bool needs_clock() const override { return true; }
 
-  Target step(const Neighbourhood& seen, const Plan&) const override {
-    const VirtualPotential potential(options_.gains, options_.waypoint(), seen.obstacles);
+  using Behaviour::step;
+  Target step(const Neighbourhood& seen, const Plan&, const Solving& solving) const override {
+    const VirtualPotential potential(options_.gains, seen.waypoint, seen.obstacles);
     const auto others = agents_in_range(seen, options_.contact_rangeout_m, options_.lead_s);
-    const solvers::Solution solution = solver_->solve(problem(potential, seen.own, others));
+    const solvers::Solution solution =
+        solving.solve(*solver_, problem(potential, seen.own, others));
     if (!solution.usable()) return Target::hold(Reason::solver_failed);
     return Target::at(solution.x.head<2>(), solution.cost);
-  }
-
-  void pose(const Neighbourhood& seen, const Plan&, ProblemViewer& viewer) const override {
-    const VirtualPotential potential(options_.gains, options_.waypoint(), seen.obstacles);
-    viewer.see(problem(potential, seen.own,
-                       agents_in_range(seen, options_.contact_rangeout_m, options_.lead_s)));
   }
 
  private:
@@ -141,7 +132,7 @@ class VirtualPotentialStep final : public Behaviour {
 
 const Enrol<Behaviour, VirtualPotentialOptions> force{
     "virtual_potential",
-    "force of a way-point, obstacles, rotors and formation cells (Barisic et al. 2011); no ids",
+    "force of a waypoint, obstacles, rotors and formation cells (Barisic et al. 2011); no ids",
     [](const VirtualPotentialOptions& options) {
       return std::make_unique<VirtualPotentialForce>(options);
     }};

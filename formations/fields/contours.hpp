@@ -26,7 +26,7 @@ struct ObstacleContour {
   static void declare(Options<ObstacleContour>& o);
 };
 
-/// A way-point, eq. 8-10: quadratic within d_0 = A_0/A_p (C6), linear beyond; C1 only.
+/// A waypoint, eq. 8-10: quadratic within d_0 = A_0/A_p (C6), linear beyond; C1 only.
 struct WaypointContour {
   double pull_m_s2 = 0.05;  ///< A_0
   double near_m = 60.0;     ///< d_0

@@ -15,7 +15,7 @@ int sign(double x) {
 
 }  // namespace
 
-// m points from the way-point to the obstacle (C13: printed the other way, the rotor would vanish
+// m points from the waypoint to the obstacle (C13: printed the other way, the rotor would vanish
 // on the side where it is needed). Only the sign of the cross product counts (C14): its size goes
 // to zero where the dead-lock is.
 Rotor::Turn Rotor::turn(const Eigen::Vector2d& normal, const Eigen::Vector2d& obstacle_centre,

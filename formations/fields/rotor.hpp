@@ -16,10 +16,10 @@ struct Rotor {
   double tie = 1e-3;
   double taper = 0.0;
 
-  /// Which way round, seen from the way-point.
+  /// Which way round, seen from the waypoint.
   struct Turn {
     /// r_i of eq. 28: 1 exactly behind the obstacle, below 0 once it is passed; 0 where the
-    /// way-point is the obstacle's very centre.
+    /// waypoint is the obstacle's very centre.
     double alignment = 0.0;
     int sense = 0;  ///< 1: counter-clockwise, -1: clockwise, 0: no rotor
   };

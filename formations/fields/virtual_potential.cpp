@@ -85,7 +85,7 @@ void FormationCell::declare(Options<FormationCell>& o) {
 
 void VirtualPotentialGains::declare(Options<VirtualPotentialGains>& o) {
   using G = VirtualPotentialGains;
-  o.table("waypoint", &G::waypoint, "attraction of the way-point");
+  o.table("waypoint", &G::waypoint, "attraction of the waypoint");
   o.table("obstacle", &G::obstacle, "repulsion of obstacles");
   o.table("rotor", &G::rotor, "force that leads round obstacles");
   o.table("cell", &G::cell, "formation cell around every other agent");

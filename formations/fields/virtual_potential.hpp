@@ -48,7 +48,7 @@ struct VirtualPotentialGains {
   static void declare(Options<VirtualPotentialGains>& o);
 };
 
-/// The potential of one way-point, of obstacles and of other agents, and the force that a vehicle
+/// The potential of one waypoint, of obstacles and of other agents, and the force that a vehicle
 /// takes from it: Barisic et al. 2011, eq. 17-29.
 ///
 /// All places in metres, in the frame of the own positions. Immutable, thread-safe, does not
@@ -61,7 +61,7 @@ class VirtualPotential {
   /// The sum of all potentials, m2/s2.
   PlaneValue potential(const Eigen::Vector2d& place, std::span<const Agent> others) const;
 
-  /// The rotors of all obstacles, m/s2; other agents, way-point and vertices have none.
+  /// The rotors of all obstacles, m/s2; other agents, waypoint and vertices have none.
   Eigen::Vector2d rotor(const Eigen::Vector2d& place, const Eigen::Vector2d& velocity) const;
 
   /// The total control force per unit of mass, m/s2: the potential's, eq. 21, the rotors', and the

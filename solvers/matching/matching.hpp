@@ -5,15 +5,17 @@
 #include <memory>
 #include <span>
 #include <string_view>
-#include <vector>
 
+#include "shoal/core/memory.hpp"
 #include "shoal/core/registry.hpp"
 #include "shoal/core/transform.hpp"
 
 namespace shoal::solvers {
 
-/// The finest step of a search that samples rotations: 36,000 of them.
-inline constexpr double least_delta_theta_deg = 0.01;
+/// Steps of a search that samples rotations: at most 36,000 of them.
+inline Range delta_theta_range_deg() {
+  return in(0.01, 180.0);
+}
 
 /// Which slots of a plan do these points take, and how is the plan turned?
 ///
@@ -22,11 +24,7 @@ inline constexpr double least_delta_theta_deg = 0.01;
 struct MatchingProblem {
   std::span<const Eigen::Vector2d> points;
   std::span<const Eigen::Vector2d> slots;
-  double ownship_weight = 1.0;    ///< of points[0]; the others weigh 1
-  double delta_theta_deg = 10.0;  ///< step between the rotations tried, for searches that sample
-  /// A small number of who asks, or -1. What he was told last may make the next answer quicker, and
-  /// never another one.
-  int asker = -1;
+  double ownship_weight = 1.0;  ///< of points[0]; the others weigh 1
 };
 
 enum class MatchingStatus : std::uint8_t { matched, bad_input };
@@ -36,18 +34,26 @@ struct MatchingSolution {
   double cost = 0.0;                   ///< sum of matched distances before refinement, m
   double rotation = 0.0;               ///< of the points onto the plan, rad
   MatchingStatus status = MatchingStatus::bad_input;
+  /// Pairs of a subset of slots and a rotation among which the answer is the best: the assignments
+  /// that an exhaustive search would solve; 0 if it is not a search of that kind.
+  std::int64_t candidates = 0;
 
   bool usable() const { return status == MatchingStatus::matched; }
 };
 
-/// Stateless and thread-safe.
+/// Stateless and thread-safe. What it remembers of a caller makes the next answer quicker, and
+/// never another one.
 class Matcher {
  public:
   static constexpr const char* family = "matching";
   static constexpr const char* family_meaning = "finds which slot of the plan each vehicle takes";
 
   virtual ~Matcher() = default;
-  virtual MatchingSolution solve(const MatchingProblem& problem) const = 0;
+  /// `memory`: what new_memory() made for the caller, or nullptr.
+  virtual MatchingSolution solve(const MatchingProblem& problem, Memory* memory) const = 0;
+  virtual std::unique_ptr<Memory> new_memory() const { return nullptr; }
+
+  MatchingSolution solve(const MatchingProblem& problem) const { return solve(problem, nullptr); }
 };
 
 }  // namespace shoal::solvers

@@ -1,6 +1,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <memory>
+#include <mutex>
 #include <optional>
 #include <tuple>
 
@@ -16,10 +18,13 @@ namespace {
 enum class Centroids : std::uint8_t { weighted, plain };
 
 struct SampledOptions {
+  double delta_theta_deg = 45.0;
   double tie_m = 0.5;
   Centroids centroids = Centroids::weighted;
 
   static void declare(Options<SampledOptions>& o) {
+    o.number("delta_theta_deg", &SampledOptions::delta_theta_deg, "deg", delta_theta_range_deg(),
+             "step between the rotations tried; the thesis used 45 without currents, 10 in them");
     o.number("tie_m", &SampledOptions::tie_m, "m", at_least(0.0),
              "slots as far from the seed as the last one taken, within this, are taken too");
     o.word("centroids", &SampledOptions::centroids,
@@ -34,10 +39,11 @@ constexpr double margin_m = 60.0;
 constexpr std::size_t most_candidates = 8;
 constexpr int longest_pause = 32;
 
-/// The matches that were worth a look when somebody asked, for when he asks again.
+/// What is remembered of a caller.
 ///
-/// A distance changes by no more than its point has moved. So while the points have moved by less
-/// than the margin in all, every other match still costs more than the best of these did.
+/// The matches that were worth a look last time: a distance changes by no more than its point has
+/// moved, so while the points have moved by less than the margin in all, every other match still
+/// costs more than the best of these did.
 struct Recollection {
   struct Candidate {
     std::size_t subset;
@@ -45,55 +51,75 @@ struct Recollection {
     double cost;
   };
 
-  std::int64_t edition = 0;  ///< of the subsets; 0: nothing is remembered
+  std::shared_ptr<const SlotSubsets> subsets;
+  bool valid = false;  ///< whether candidates of these subsets are remembered
   std::vector<Eigen::Vector2d> points;
   std::vector<Candidate> candidates;  ///< by subset, then by turn
   double others = 0.0;                ///< all other matches cost this, or more
-  // To remember is dearer than to find: who moves far between two questions does so now and then.
+  // Remembering costs more than finding: while points move far between two calls it is tried now
+  // and then.
   int pause = 0, next_pause = 1;
+  // What won last: it bounds the search, whatever it is.
+  std::size_t last_subset = 0;
+  int last_turn = 0;
 };
 
-// What is kept from call to call of a thread.
+// What is kept from call to call of a thread: room, and no numbers.
 struct Workspace {
   struct Visit {
     std::size_t subset;
     double bound_below;
   };
 
-  Turns turns{360.0};
-  SlotSubsets subsets;
   RotationSearch search;
   std::vector<Eigen::Vector2d> points;
   std::vector<Visit> visits;
   std::vector<TurnedMatch> found;
   std::vector<int> slot_of_point;
-  std::vector<Recollection> recollections;  // by asker
-  // What won last. Whoever asks again has hardly moved: it bounds the search, whatever it is.
-  std::size_t last_subset = 0;
-  int last_turn = 0;
+};
+
+/// The subsets of plans that were met, shared by all callers and threads.
+class MetSubsets {
+ public:
+  std::shared_ptr<const SlotSubsets> of(int points, std::span<const Eigen::Vector2d> slots,
+                                        const SubsetRule& rule, const Turns& turns) const {
+    const std::scoped_lock lock(mutex_);
+    for (const auto& met : met_) {
+      if (met->are_of(points, slots, rule)) return met;
+    }
+    if (met_.size() == most) met_.erase(met_.begin());
+    return met_.emplace_back(std::make_shared<const SlotSubsets>(points, slots, rule, turns));
+  }
+
+ private:
+  static constexpr std::size_t most = 256;
+
+  mutable std::mutex mutex_;
+  mutable std::vector<std::shared_ptr<const SlotSubsets>> met_;
 };
 
 /// Tries every slot as seed of the part of the plan that is seen, and every rotation by a multiple
 /// of delta theta; the cheapest assignment wins (Rypkema 2015, sec. 3.7, Alg. 8).
 class Sampled final : public Matcher {
  public:
-  explicit Sampled(const SampledOptions& options) : options_(options) {}
+  explicit Sampled(const SampledOptions& options)
+      : options_(options), turns_(options.delta_theta_deg) {}
 
-  MatchingSolution solve(const MatchingProblem& problem) const override {
+  std::unique_ptr<Memory> new_memory() const override {
+    return std::make_unique<MemoryOf<Recollection>>();
+  }
+
+  using Matcher::solve;
+  MatchingSolution solve(const MatchingProblem& problem, Memory* memory) const override {
     const double own_weight =
         options_.centroids == Centroids::weighted ? problem.ownship_weight : 1.0;
     const double weight = own_weight + static_cast<double>(problem.points.size()) - 1.0;
     if (problem.points.empty() || problem.points.size() > problem.slots.size() ||
-        !(problem.delta_theta_deg >= least_delta_theta_deg && problem.delta_theta_deg <= 360.0) ||
         !std::isfinite(problem.ownship_weight) || problem.ownship_weight < 0.0 || !(weight > 0.0) ||
         !all_finite(problem.points) || !all_finite(problem.slots)) {
       return {};
     }
     thread_local Workspace work;
-    if (work.turns.step_deg() != problem.delta_theta_deg) {
-      work.turns = Turns(problem.delta_theta_deg);
-    }
-
     Eigen::Vector2d centre = (own_weight - 1.0) * problem.points.front();
     for (const Eigen::Vector2d& p : problem.points) centre += p;
     centre /= weight;
@@ -101,17 +127,18 @@ class Sampled final : public Matcher {
     for (const Eigen::Vector2d& p : problem.points) work.points.push_back(p - centre);
     work.search.set_points(work.points);
 
-    const auto& subsets =
-        work.subsets.of(static_cast<int>(problem.points.size()), problem.slots,
-                        {.tie_m = options_.tie_m, .seed_weight = own_weight}, work.turns);
-    Recollection* last = nullptr;
-    if (problem.asker >= 0) {
-      const auto asker = static_cast<std::size_t>(problem.asker);
-      if (work.recollections.size() <= asker) work.recollections.resize(asker + 1);
-      last = &work.recollections[asker];
-      if (const auto best = remembered(*last, subsets, work)) return assemble(subsets, *best, work);
+    Recollection first_time;
+    Recollection& last =
+        memory ? static_cast<MemoryOf<Recollection>*>(memory)->content : first_time;
+    const auto points = static_cast<int>(problem.points.size());
+    const SubsetRule rule{.tie_m = options_.tie_m, .seed_weight = own_weight};
+    if (!last.subsets || !last.subsets->are_of(points, problem.slots, rule)) {
+      last.subsets = met_.of(points, problem.slots, rule, turns_);
+      last.valid = false;
     }
-    return assemble(subsets, best_of(subsets, last, work), work);
+    std::optional<Place> best = remembered(last, work);
+    if (!best) best = best_of(last, memory && worth_remembering(last), work);
+    return assemble(*last.subsets, *best, problem.slots.size(), work);
   }
 
  private:
@@ -121,11 +148,9 @@ class Sampled final : public Matcher {
   };
 
   /// The best match, if it is certain to be one of those remembered.
-  static std::optional<Place> remembered(Recollection& last, const std::vector<SlotSubset>& subsets,
-                                         Workspace& work) {
-    if (last.edition != work.subsets.edition() || last.points.size() != work.points.size()) {
-      return std::nullopt;
-    }
+  std::optional<Place> remembered(Recollection& last, Workspace& work) const {
+    if (!last.valid) return std::nullopt;
+    const std::span<const SlotSubset> subsets = last.subsets->all();
     double moved = 0.0;
     for (std::size_t i = 0; i < work.points.size(); ++i) {
       moved += (work.points[i] - last.points[i]).norm();
@@ -133,7 +158,7 @@ class Sampled final : public Matcher {
     if (moved > margin_m) return std::nullopt;
     double least = std::numeric_limits<double>::infinity();
     for (Recollection::Candidate& candidate : last.candidates) {
-      work.search.match(work.turns, subsets[candidate.subset].aligned, candidate.turn);
+      work.search.match(turns_, subsets[candidate.subset].aligned, candidate.turn);
       candidate.cost = work.search.cost();
       least = std::min(least, candidate.cost);
     }
@@ -161,12 +186,11 @@ class Sampled final : public Matcher {
 
   // Promising subsets come first, so that the others are soon ruled out; which one wins does not
   // depend on that order.
-  static Place best_of(const std::vector<SlotSubset>& subsets, Recollection* last,
-                       Workspace& work) {
-    const bool remember = last && worth_remembering(*last);
+  Place best_of(Recollection& last, bool remember, Workspace& work) const {
+    const std::span<const SlotSubset> subsets = last.subsets->all();
     const double margin = remember ? margin_m : 0.0;
-    if (last) last->edition = 0;
-    if (remember) last->candidates.clear();
+    last.valid = false;
+    last.candidates.clear();
     work.visits.clear();
     for (std::size_t i = 0; i < subsets.size(); ++i) {
       work.visits.push_back({i, work.search.bound_below(subsets[i].aligned)});
@@ -175,25 +199,25 @@ class Sampled final : public Matcher {
       return std::tie(a.bound_below, a.subset) < std::tie(b.bound_below, b.subset);
     });
     work.found.assign(subsets.size(), {});
-    work.search.match(work.turns, subsets[std::min(work.last_subset, subsets.size() - 1)].aligned,
-                      std::min(work.last_turn, work.turns.count() - 1));
+    work.search.match(turns_, subsets[std::min(last.last_subset, subsets.size() - 1)].aligned,
+                      last.last_turn);
     double least = work.search.cost();
     for (const auto& [subset, bound_below] : work.visits) {
       // One tie between subsets and one between turns.
       const double limit = least + margin + 2.0 * cost_tie_m;
       if (bound_below > limit) break;
-      work.found[subset] = work.search.search(work.turns, subsets[subset].aligned, limit, margin);
+      work.found[subset] = work.search.search(turns_, subsets[subset].aligned, limit, margin);
       least = std::min(least, work.found[subset].cost);
       if (!remember) continue;
       work.search.visit_turns([&, of = subset](int turn, double cost) {
-        last->candidates.push_back({of, turn, cost});
+        last.candidates.push_back({of, turn, cost});
       });
     }
-    if (remember) keep(*last, least + margin, work);
+    if (remember) keep(last, least + margin, work);
     std::size_t winner = 0;
     while (work.found[winner].cost > least + cost_tie_m) ++winner;
-    work.last_subset = winner;
-    work.last_turn = work.found[winner].turn;
+    last.last_subset = winner;
+    last.last_turn = work.found[winner].turn;
     return {winner, work.found[winner].turn};
   }
 
@@ -215,24 +239,27 @@ class Sampled final : public Matcher {
     });
     last.points = work.points;
     last.others = others;
-    last.edition = work.subsets.edition();
+    last.valid = true;
   }
 
-  static MatchingSolution assemble(const std::vector<SlotSubset>& subsets, const Place& best,
-                                   Workspace& work) {
-    const SlotSubset& subset = subsets[best.subset];
-    work.search.match(work.turns, subset.aligned, best.turn);
+  MatchingSolution assemble(const SlotSubsets& subsets, const Place& best, std::size_t slots,
+                            Workspace& work) const {
+    const SlotSubset& subset = subsets.all()[best.subset];
+    work.search.match(turns_, subset.aligned, best.turn);
     work.slot_of_point.clear();
     for (const int column : work.search.slot_of_point()) {
       work.slot_of_point.push_back(subset.slot[static_cast<std::size_t>(column)]);
     }
     return {.slot_of_point = work.slot_of_point,
             .cost = work.search.cost(),
-            .rotation = wrapped(work.turns.angle(best.turn)),
-            .status = MatchingStatus::matched};
+            .rotation = wrapped(turns_.angle(best.turn)),
+            .status = MatchingStatus::matched,
+            .candidates = static_cast<std::int64_t>(slots) * turns_.count()};
   }
 
   SampledOptions options_;
+  Turns turns_;
+  MetSubsets met_;
 };
 
 const Enrol<Matcher, SampledOptions> enrolled{

@@ -30,41 +30,36 @@ bool alike(const AlignedSlots& a, const AlignedSlots& b, const Turns& turns) {
 
 }  // namespace
 
-const std::vector<SlotSubset>& SlotSubsets::of(int points, std::span<const Eigen::Vector2d> slots,
-                                               const SubsetRule& rule, const Turns& turns) {
-  if (!std::ranges::equal(slots, slots_) || rule != rule_ || turns.step_deg() != step_deg_) {
-    slots_.assign(slots.begin(), slots.end());
-    rule_ = rule;
-    step_deg_ = turns.step_deg();
-    by_points_.assign(slots.size() + 1, {});
-    ++edition_;
-  }
-  std::vector<SlotSubset>& subsets = by_points_[static_cast<std::size_t>(points)];
-  if (!subsets.empty()) return subsets;
-
+SlotSubsets::SlotSubsets(int points, std::span<const Eigen::Vector2d> slots, const SubsetRule& rule,
+                         const Turns& turns)
+    : points_(points), slots_(slots.begin(), slots.end()), rule_(rule) {
   for (int seed = 0; seed < static_cast<int>(slots_.size()); ++seed) {
-    SlotSubset subset = around(seed, points);
-    const bool known = std::ranges::any_of(subsets, [&](const SlotSubset& earlier) {
+    SlotSubset subset = around(seed);
+    const bool known = std::ranges::any_of(subsets_, [&](const SlotSubset& earlier) {
       return alike(subset.aligned, earlier.aligned, turns);
     });
-    if (!known) subsets.push_back(std::move(subset));
+    if (!known) subsets_.push_back(std::move(subset));
   }
-  return subsets;
 }
 
-SlotSubset SlotSubsets::around(int seed, int points) {
+bool SlotSubsets::are_of(int points, std::span<const Eigen::Vector2d> slots,
+                         const SubsetRule& rule) const {
+  return points == points_ && rule == rule_ && std::ranges::equal(slots, slots_);
+}
+
+SlotSubset SlotSubsets::around(int seed) const {
   const Eigen::Vector2d& seed_slot = slots_[static_cast<std::size_t>(seed)];
-  distance_.clear();
-  for (const Eigen::Vector2d& slot : slots_) distance_.push_back((slot - seed_slot).norm());
-  sorted_ = distance_;
-  std::nth_element(sorted_.begin(), sorted_.begin() + (points - 1), sorted_.end());
-  const double reach = sorted_[static_cast<std::size_t>(points - 1)] + rule_.tie_m;
+  std::vector<double> distance;
+  for (const Eigen::Vector2d& slot : slots_) distance.push_back((slot - seed_slot).norm());
+  std::vector<double> sorted = distance;
+  std::nth_element(sorted.begin(), sorted.begin() + (points_ - 1), sorted.end());
+  const double reach = sorted[static_cast<std::size_t>(points_ - 1)] + rule_.tie_m;
 
   SlotSubset subset;
   std::vector<Eigen::Vector2d> taken;
   Eigen::Vector2d sum = (rule_.seed_weight - 1.0) * seed_slot;
   for (std::size_t j = 0; j < slots_.size(); ++j) {
-    if (distance_[j] > reach) continue;
+    if (distance[j] > reach) continue;
     subset.slot.push_back(static_cast<int>(j));
     taken.push_back(slots_[j]);
     sum += slots_[j];

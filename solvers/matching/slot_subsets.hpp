@@ -1,7 +1,6 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -23,30 +22,27 @@ struct SubsetRule {
   bool operator==(const SubsetRule&) const = default;
 };
 
-/// The subsets of a plan worth searching, per number of points (Rypkema 2015, sec. 3.7, step 2).
+/// The subsets of a plan worth searching, for a number of points (Rypkema 2015, sec. 3.7, step 2).
 ///
-/// They depend on the plan only, so they are kept from call to call and made anew when the plan,
-/// the rule or the step changes. Of subsets that look alike about their centres, also after a
-/// rotation that only permutes the turns, the first stands for all: their costs are the same, and
-/// the first would win (the augmentation that sec. 3.7 suggests for lattices).
+/// Of subsets that look alike about their centres, also after a rotation that only permutes the
+/// turns, the first stands for all: their costs are the same, and the first would win (the
+/// augmentation that sec. 3.7 suggests for lattices).
 class SlotSubsets {
  public:
   /// Subsets of at least `points` slots, ordered by their seeds. 1 <= points <= slots.size().
-  const std::vector<SlotSubset>& of(int points, std::span<const Eigen::Vector2d> slots,
-                                    const SubsetRule& rule, const Turns& turns);
+  SlotSubsets(int points, std::span<const Eigen::Vector2d> slots, const SubsetRule& rule,
+              const Turns& turns);
 
-  /// Another number whenever the plan, the rule or the step has changed; above 0.
-  std::int64_t edition() const { return edition_; }
+  bool are_of(int points, std::span<const Eigen::Vector2d> slots, const SubsetRule& rule) const;
+  std::span<const SlotSubset> all() const { return subsets_; }
 
  private:
-  SlotSubset around(int seed, int points);
+  SlotSubset around(int seed) const;
 
+  int points_;
   std::vector<Eigen::Vector2d> slots_;
   SubsetRule rule_;
-  double step_deg_ = 0.0;
-  std::int64_t edition_ = 0;
-  std::vector<std::vector<SlotSubset>> by_points_;
-  std::vector<double> distance_, sorted_;
+  std::vector<SlotSubset> subsets_;
 };
 
 }  // namespace shoal::solvers

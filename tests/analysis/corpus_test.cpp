@@ -40,18 +40,23 @@ scenarios::Scenario scenario(const std::string& behaviour) {
   scenarios::apply_set(root, "behaviour.rigid_registration.ownship_weight=0.1");
   const auto made = Registry<formations::Behaviour>::instance().make(behaviour, {}, "");
   if (made->needs_clock()) scenarios::apply_set(root, "planner.update=tick");
+  if (made->needs_waypoint()) scenarios::apply_set(root, "waypoint={x_m=500,y_m=-20}");
+  scenarios::apply_set(root, "guidance.kind=" + formations::guidance_for(made->gives_forces()));
   return scenarios::read_scenario(root);
 }
 
 Corpus recorded(const scenarios::Scenario& wanted, int threads = 1) {
   ProblemRecorder recorder;
-  const Trial trial =
-      run_trial(wanted, {.threads = threads, .record = false, .behaviour_hook = recorder.hook()});
+  const Trial trial = run_trial(
+      wanted, {.threads = threads, .record = false, .plan_observer = recorder.of_trial()});
   return recorder.corpus(wanted, "construction_square", trial.world->plan());
 }
 
 void expect_same(const Corpus& a, const Corpus& b) {
   ASSERT_EQ(a.experiments.size(), b.experiments.size());
+  for (std::size_t k = 0; k < a.experiments.size(); ++k) {
+    ASSERT_EQ(a.experiments[k].waypoint, b.experiments[k].waypoint);
+  }
   ASSERT_EQ(a.situations.size(), b.situations.size());
   for (std::size_t k = 0; k < a.situations.size(); ++k) {
     const Situation &left = a.situations[k], &right = b.situations[k];
@@ -86,7 +91,9 @@ TEST_F(Corpora, PoseTheSameProblemsAgainBitForBitAfterAFile) {
     const auto after = again.experiments[0].make_behaviour();
     const auto sea = scenarios::make_obstacles(again.experiments[0].obstacles);
     for (const Situation& s : again.situations) {
-      const formations::Neighbourhood seen{s.neighbours, s.own_slot, s.own, sea};
+      const formations::Neighbourhood seen{
+          s.neighbours, s.own_slot, s.own, sea,
+          again.experiments[0].waypoint.value_or(Eigen::Vector2d::Zero())};
       const formations::Target a = before->step(seen, corpus.experiments[0].plan);
       const formations::Target b = after->step(seen, again.experiments[0].plan);
       ASSERT_EQ(a.position, b.position) << behaviour;
@@ -99,7 +106,7 @@ TEST_F(Corpora, DoNotDependOnThreadsAndLeaveTheTrialAlone) {
   const scenarios::Scenario wanted = scenario("rigid_registration");
   expect_same(recorded(wanted, 1), recorded(wanted, 3));
   ProblemRecorder recorder;
-  const Trial with = run_trial(wanted, {.record = false, .behaviour_hook = recorder.hook()});
+  const Trial with = run_trial(wanted, {.record = false, .plan_observer = recorder.of_trial()});
   const Trial without = run_trial(wanted, {.record = false});
   EXPECT_EQ(with.results.values, without.results.values);
 }

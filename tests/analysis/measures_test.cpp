@@ -111,9 +111,10 @@ TEST(Thrust, OfVehiclesThatDoNotMoveHasNoShareOfTheDistance) {
 }
 
 TEST(Thrust, OfASwarmThatFormsIsAShare) {
-  const Results results = run(parked, {"guidance.drifting_radius_m=20", "swarm.start.kind=points",
-                                       "swarm.start.points.points=[[0,0],[0,50],[50,0],[50,50]]"})
-                              .results;
+  const Results results =
+      run(parked, {"guidance.drift.drifting_radius_m=20", "swarm.start.kind=points",
+                   "swarm.start.points.points=[[0,0],[0,50],[50,0],[50,50]]"})
+          .results;
   const double mean = *results.at("thrust_time_ratio_mean");
   EXPECT_GT(mean, 0.5);
   EXPECT_LE(*results.at("thrust_time_ratio_min"), mean);
@@ -180,7 +181,7 @@ TEST(Quality, KnowsHowStraightVehiclesWentToTheirPlaces) {
   EXPECT_EQ(run(parked).results.at("path_straightness"), std::nullopt);
   // Two vehicles push one another apart, along the line on which they are.
   const Settings apart = {"plan.square.rows=1", "swarm.start.kind=points", "trial.duration_s=600",
-                          "guidance.drifting_radius_m=10",
+                          "guidance.drift.drifting_radius_m=10",
                           "swarm.start.points.points=[[0,0],[100,0]]"};
   const Settings exact = {"ping={range_sd_m=0,bearing_sd_deg=0,elevation_sd_deg=0}"};
   const Results results = run(both(parked, apart), exact).results;
@@ -296,16 +297,16 @@ const Settings two_on_their_way = {
     "swarm.start.points={points=[[0,0],[0,30]],heading_deg=90}",
     "swarm.vehicle.kind=nps_auv",
     "behaviour.kind=virtual_potential",
-    "behaviour.virtual_potential.waypoint_x_m=300",
-    "behaviour.virtual_potential.waypoint_y_m=15",
+    "waypoint.x_m=300",
+    "waypoint.y_m=15",
     "behaviour.virtual_potential.lead_s=6",
     "planner.update=tick",
     "planner.period_s=0.5",
-    "guidance.period_s=0.5",
+    "guidance={kind='conditioned_force',conditioned_force={period_s=0.5}}",
     "trial.tick_s=0.5",
     "ping={period_s=0.5,carries_state=true}",
     "trial.duration_s=400",
-    "arrival.radius_m=40",
+    "waypoint.radius_m=40",
     "swarm.vehicle.nps_auv.controllers.reverse=true",
     "obstacle=[{shape={kind='circle',circle={x_m=150,y_m=200,radius_m=20}}}]"};
 
@@ -331,7 +332,7 @@ TEST(Passage, TellsTheTimeInMotionsThatTheEnvelopeDoesNotKnow) {
   Settings settings = two_on_their_way;
   EXPECT_EQ(*run(settings).results.at("outside_envelope_share"), 0.0);
   // From rest, nothing the envelope allows is within reach until the vehicle does 0.475 m/s.
-  settings.push_back("envelope={speed_min_m_s=0.5}");
+  settings.push_back("guidance.conditioned_force.envelope={speed_min_m_s=0.5}");
   const double share = *run(settings).results.at("outside_envelope_share");
   EXPECT_GT(share, 0.0);
   EXPECT_LT(share, 0.2);
@@ -414,7 +415,7 @@ TEST(Series, EndWithTheValue) {
 TEST(Trial, HasTheSameMeasuresWithAndWithoutARecord) {
   Setting root;
   for (const std::string& setting : parked) scenarios::apply_set(root, setting);
-  scenarios::apply_set(root, "guidance.drifting_radius_m=20");
+  scenarios::apply_set(root, "guidance.drift.drifting_radius_m=20");
   const scenarios::Scenario scenario = scenarios::read_scenario(root);
   const Trial recorded = run_trial(scenario, {.record = true});
   const Trial unrecorded = run_trial(scenario, {.record = false});

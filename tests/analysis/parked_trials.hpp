@@ -12,9 +12,10 @@ namespace shoal::analysis::test {
 using Settings = std::vector<std::string>;
 
 /// Four vehicles on a square of 300 m that never thrust: they are where their radius says.
-inline const Settings parked = {
-    "trial.duration_s=100", "plan.square={rows=2,columns=2,separation_m=300}",
-    "swarm.start.kind=plan", "guidance.drifting_radius_m=100000", "quality={every_s=10,layers=0}"};
+inline const Settings parked = {"trial.duration_s=100",
+                                "plan.square={rows=2,columns=2,separation_m=300}",
+                                "swarm.start.kind=plan", "guidance.drift.drifting_radius_m=100000",
+                                "quality={every_s=10,layers=0}"};
 
 inline scenarios::Scenario scenario_of(const Settings& base, const Settings& more) {
   Setting root;

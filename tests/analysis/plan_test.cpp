@@ -109,10 +109,10 @@ TEST(Plan, GroupsFollowOneAnotherEachWithItsReplications) {
 }
 
 TEST(Plan, AFactorThatDoesNotApplyMakesNoCells) {
-  const StudyPlan plan =
-      plan_of(base + behaviours +
-              "[[factor]]\nkey = \"behaviour.assignment_registration.delta_theta_deg\"\n"
-              "values = [10, 45]\nonly = { behaviour = \"assignment_registration\" }\n");
+  const StudyPlan plan = plan_of(
+      base + behaviours +
+      "[[factor]]\nkey = \"behaviour.assignment_registration.matching.sampled.delta_theta_deg\"\n"
+      "values = [10, 45]\nonly = { behaviour = \"assignment_registration\" }\n");
   const PlannedGroup& group = plan.groups().front();
   EXPECT_EQ(titles(group), (std::vector<std::string>{
                                "behaviour = rigid_registration",

@@ -42,7 +42,7 @@ class Help(Desk):
         self.assertIn("default 1.0", text)
 
     def test_describe_a_key(self):
-        key = "behaviour.assignment_registration.delta_theta_deg"
+        key = "behaviour.assignment_registration.matching.sampled.delta_theta_deg"
         text = self.say("describe", key)
         self.assertTrue(text.startswith(key + "\n"))
         self.assertIn("takes a number from 0.01 to 180 deg; default 45.0", text)

@@ -18,7 +18,7 @@ energy_hotel_mean_wh energy_comms_mean_wh quality_final_m quality_settled_m qual
 quality_last_m quality_trend_m_per_h centroid_path_m centroid_displacement_m efficiency_m_per_wh
 thrust_time_ratio_mean thrust_time_ratio_spread thrust_distance_ratio_mean formation_rotation_deg
 min_separation_m fragments lost_vehicles energy_spread_wh energy_rate_w rotation_disagreement_deg""".split()
-# Of trials with a way-point, or vehicles that estimate their states.
+# Of trials with a waypoint, or vehicles that estimate their states.
 ELSEWHERE = """arrived_vehicles stranded_share arrival_first_s clearance_min_m cell_error_rms_m
 control_effort_m_s outside_envelope_share position_error_rms_m nees_mean fault_share""".split()
 BESIDE = ["scenario", "behaviour", "seed", "program", "vehicles", "duration_s", "mission_s",

@@ -137,9 +137,9 @@ class Trials(Desk):
         self.write("long.py", """
 import shoal
 def far(now):
-    assert now["duration_s"] == 1e9 and 0 < now["time_s"] < 1e9 and now["elapsed_s"] > 0
+    assert now["duration_s"] == 1e8 and 0 < now["time_s"] < 1e8 and now["elapsed_s"] > 0
     print("on its way", flush=True)
-shoal.run("construction_square", {"trial.duration_s": 1e9, "trial.record_every_s": 0}, progress=far)
+shoal.run("construction_square", {"trial.duration_s": 1e8, "trial.record_every_s": 0}, progress=far)
 """)
         with subprocess.Popen([sys.executable, "long.py"], cwd=self.desk, text=True,
                               stdout=subprocess.PIPE, stderr=subprocess.PIPE) as running:
@@ -155,7 +155,7 @@ shoal.run("construction_square", {"trial.duration_s": 1e9, "trial.record_every_s
         law = shoal.potential(lambda r, s: (r - s)**2 / s)
         with self.assertWarnsRegex(RuntimeWarning, "batch=True"), self.assertRaises(StopIteration):
             shoal.run("construction_hexagonal",
-                      {"behaviour.kind": "attraction_repulsion", "trial.duration_s": 1e9,
+                      {"behaviour.kind": "attraction_repulsion", "trial.duration_s": 1e8,
                        "behaviour.attraction_repulsion.potential": law}, progress=Until(8))
 
     def test_values_that_no_option_takes(self):
@@ -358,19 +358,50 @@ class Planning(Desk):
 
     def test_forces_of_a_potential(self):
         planner = shoal.Planner(self.plan, "virtual_potential", "anna",
-                                {"waypoint_x_m": 300, "waypoint_y_m": 0},
+                                waypoint=(300, 0),
                                 obstacles=[{"shape.kind": "circle", "shape.circle":
                                             {"x_m": 900, "y_m": 900, "radius_m": 10}}])
-        planner.plan(1.0, shoal.OwnState([0, 0], velocity=[1, 0], speed_m_s=1.0))
+        own = shoal.OwnState([0, 0], velocity=[1, 0], speed_m_s=1.0)
+        planner.plan(1.0, own)
         self.assertGreater(planner.force[0], 0)
+        # Ahead, and faster within the envelope: 0.05 m/s2 for 0.25 s.
+        command = planner.command(own)
+        self.assertTrue(command.thrust)
+        self.assertTrue(1.0 < command.speed_m_s <= 1.0 + 0.05 * planner.command_period_s)
+        self.assertAlmostEqual(command.acceleration_m_s2, (command.speed_m_s - 1) / 0.25)
+        self.assertFalse(command.outside_envelope)
+        with self.assertRaisesRegex(shoal.InputError, "give an OwnState"):
+            planner.command([0, 0])
         # The same world turned by a quarter has the same force, turned by a quarter.
         turned = shoal.Planner(self.plan, "virtual_potential", "anna",
-                               {"waypoint_x_m": 0, "waypoint_y_m": 300},
+                               waypoint=(0, 300),
                                obstacles=[{"shape.kind": "circle", "shape.circle":
                                            {"x_m": -900, "y_m": 900, "radius_m": 10}}])
         turned.plan(1.0, shoal.OwnState([0, 0], velocity=[0, 1], heading_rad=math.pi / 2, speed_m_s=1.0))
         east, north = planner.force
         numpy.testing.assert_allclose(turned.force, [-north, east], atol=1e-12)
+
+    def test_from_pings_to_headings_and_drift(self):
+        position = numpy.array([970, 610])
+        planner = shoal.Planner(self.plan, "rigid_registration", "anna",
+                                guidance_options={"drifting_radius_m": 25})
+        self.assertEqual(planner.command_period_s, 0.25)
+        self.assertFalse(planner.command(position).thrust)
+        planner.receive(self.ping(1, (1000, 600), position), position)
+        planner.receive(self.ping(2, (900, 500), position), position)
+        east, north = planner.plan(2.0, position)
+        command = planner.command(position)
+        self.assertEqual((command.thrust, command.speed_m_s), (math.hypot(east, north) > 25, 1.0))
+        self.assertAlmostEqual(command.heading_rad, math.atan2(north, east))
+        self.assertFalse(planner.command(position + [east, north]).thrust)
+        self.assertFalse(planner.command(position + [east + 20, north]).thrust)  # latched
+        self.assertTrue(planner.command(position + [east + 26, north]).thrust)
+
+    def test_a_guidance_that_does_not_fit_is_refused(self):
+        with self.assertRaisesRegex(shoal.InputError, "gives places, and the guidance takes forces"):
+            shoal.Planner(self.plan, "rigid_registration", "anna", guidance="conditioned_force")
+        with self.assertRaisesRegex(shoal.InputError, "leads vehicles to a waypoint"):
+            shoal.Planner(self.plan, "virtual_potential", "anna")
 
     def test_what_is_wrong_is_told(self):
         with self.assertRaisesRegex(shoal.InputError, "anna, bela and cyra"):
@@ -439,9 +470,9 @@ class Problems(Desk):
 
     def test_a_match_that_cannot_be_is_refused_in_words(self):
         places = numpy.eye(2) * 100
-        for step in (0, 1e-7, -10, 361, math.nan):
+        for step in (0, 1e-7, -10, 181, math.nan):
             with self.assertRaisesRegex(shoal.InputError, "delta_theta_deg is .*; it takes from"):
-                shoal.match(places, places, delta_theta_deg=step)
+                shoal.match(places, places, options={"delta_theta_deg": step})
         with self.assertRaisesRegex(shoal.InputError, "3 points for 2 slots"):
             shoal.match(numpy.ones((3, 2)), places)
         with self.assertRaisesRegex(shoal.InputError, "0 points"):
@@ -508,6 +539,24 @@ class Studies(Desk):
         with self.assertRaises(KeyboardInterrupt):
             shoal.sweep(self.desk / "study.toml", self.desk / "out", jobs=1, progress=stop)
         self.assertEqual(len(shoal.sweep(self.desk / "study.toml", self.desk / "out")), 9)
+
+
+    def test_a_sweep_is_interrupted_within_a_trial(self):
+        self.write("study.toml", 'scenario = "construction_square"\n'
+                                 'set = { trial.duration_s = 1e8 }\nreplications = 2\n')
+        self.write("long.py", """
+import shoal
+shoal.sweep("study.toml", "out", jobs=2, progress=lambda now: print("on its way", flush=True))
+""")
+        with subprocess.Popen([sys.executable, "long.py"], cwd=self.desk, text=True,
+                              stdout=subprocess.PIPE, stderr=subprocess.PIPE) as running:
+            try:
+                self.assertEqual(running.stdout.readline(), "on its way\n")
+                running.send_signal(signal.SIGINT)
+                _, complaint = running.communicate(timeout=120)  # the trials would take hours
+            finally:
+                running.kill()
+        self.assertIn("KeyboardInterrupt", complaint)
 
 
 class Catalogue(Desk):

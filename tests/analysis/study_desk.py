@@ -15,7 +15,7 @@ key = "behaviour.kind"
 values = ["rigid_registration", "assignment_registration"]
 
 [[factor]]
-key = "behaviour.assignment_registration.delta_theta_deg"
+key = "behaviour.assignment_registration.matching.sampled.delta_theta_deg"
 values = [10, 45]
 only = { behaviour = "assignment_registration" }
 

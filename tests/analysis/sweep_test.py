@@ -29,7 +29,7 @@ saltelli.base_samples = 4
 
 [[factor]]
 name = "radius"
-key = "guidance.drifting_radius_m"
+key = "guidance.drift.drifting_radius_m"
 range = [15, 75]
 
 [[factor]]

@@ -14,9 +14,10 @@ namespace {
 using Settings = std::vector<std::string>;
 
 /// Nine vehicles on a square lattice of 300 m that never thrust.
-const Settings nine_parked = {
-    "trial.duration_s=600", "plan.square={rows=3,columns=3,separation_m=300}",
-    "swarm.start.kind=plan", "guidance.drifting_radius_m=100000", "quality={every_s=30,layers=1}"};
+const Settings nine_parked = {"trial.duration_s=600",
+                              "plan.square={rows=3,columns=3,separation_m=300}",
+                              "swarm.start.kind=plan", "guidance.drift.drifting_radius_m=100000",
+                              "quality={every_s=30,layers=1}"};
 const Settings exact = {"ping={range_sd_m=0,bearing_sd_deg=0,elevation_sd_deg=0}"};
 
 Results results_of(const std::vector<Settings>& parts) {
@@ -65,7 +66,7 @@ TEST(Paths, OfASwarmThatStaysAreNone) {
 TEST(Paths, OfVehiclesThatChangeTheirCornersCross) {
   std::vector<Eigen::Vector2d> places = square_places(3, 3);
   std::swap(places[0], places[8]);
-  const Settings keen = {"guidance.drifting_radius_m=20", "trial.duration_s=1800",
+  const Settings keen = {"guidance.drift.drifting_radius_m=20", "trial.duration_s=1800",
                          "behaviour.kind=rigid_registration", "ping.range_m=2000"};
   EXPECT_EQ(results_of({nine_parked, exact, keen, {at(places)}}).at("crossing_share"), 0.0);
   std::swap(places[2], places[6]);
@@ -94,7 +95,7 @@ TEST(Turning, OfDriftersInAVortexIsThatOfTheirCircles) {
 
 TEST(CurrentSpeed, IsThatOfTheWater) {
   const Results results = results_of({nine_parked,
-                                      {"current.kind=uniform", "guidance.speed_m_s=0.8",
+                                      {"current.kind=uniform", "guidance.drift.speed_m_s=0.8",
                                        "current.uniform={u_m_s=0.12,v_m_s=-0.16}"}});
   EXPECT_NEAR(*results.at("current_speed_mean_m_s"), 0.2, 1e-12);
   EXPECT_NEAR(*results.at("current_speed_ratio"), 0.25, 1e-12);
@@ -211,7 +212,7 @@ TEST(LeastThrust, IsWhereTheVehicleIsThatThrustsLeast) {
     places[i] += (places[i] - places[4]).normalized() * 100.0;
   const Results results = results_of({nine_parked,
                                       exact,
-                                      {"guidance.drifting_radius_m=20", "trial.duration_s=90",
+                                      {"guidance.drift.drifting_radius_m=20", "trial.duration_s=90",
                                        at(places), "behaviour.kind=rigid_registration"}});
   EXPECT_LT(*results.at("least_thrust_radius"), 0.75);
   EXPECT_EQ(results_of({nine_parked}).at("least_thrust_radius"), std::nullopt);
@@ -249,7 +250,7 @@ TEST(SearchSize, CountsSeedsRotationsAndDistances) {
       results_of({nine_parked,
                   exact,
                   {"trial.duration_s=60", "behaviour.kind=assignment_registration",
-                   "behaviour.assignment_registration.delta_theta_deg=45"}});
+                   "behaviour.assignment_registration.matching.sampled.delta_theta_deg=45"}});
   EXPECT_EQ(results.at("search_assignments"), 9.0 * 8.0);
   EXPECT_EQ(results.at("search_distances"), 9.0 * 8.0 * 9.0 * 9.0);  // the middle one hears all
   EXPECT_EQ(results_of({nine_parked}).at("search_assignments"), std::nullopt);

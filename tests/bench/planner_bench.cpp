@@ -53,11 +53,15 @@ void target(benchmark::State& state, const char* behaviour, int neighbours, bool
             const Choices& choices = {}, double delta_theta_deg = 0.0) {
   const Scene seen = scene(neighbours, formed);
   shoal::Setting options;
-  if (delta_theta_deg > 0.0) options.at_or_new("delta_theta_deg").value = delta_theta_deg;
+  if (delta_theta_deg > 0.0) {
+    assign(options, "matching.sampled.delta_theta_deg", {delta_theta_deg, {}});
+  }
   for (const auto& [key, kind] : choices) assign(options, key, {std::string(kind), {}});
   const auto member = shoal::Registry<Behaviour>::instance().make(behaviour, options, behaviour);
+  shoal::OwnedMemory memory = member->new_memory();
+  const Solving solving(memory.get());
   for (auto _ : state) {
-    benchmark::DoNotOptimize(member->step({seen.heard, seen.own}, seen.plan));
+    benchmark::DoNotOptimize(member->step({seen.heard, seen.own}, seen.plan, solving));
   }
 }
 

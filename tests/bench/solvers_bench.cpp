@@ -157,12 +157,12 @@ void sampled(benchmark::State& state, bool near, double ownship_weight) {
     seen.push_back(seen_from(k, static_cast<std::size_t>(state.range(0)),
                              near ? near_to(slots, generator) : in_a_box(20, 200.0, generator)));
   }
-  const auto matcher = Registry<Matcher>::instance().make("sampled", Setting{}, "matching.sampled");
-  const auto delta_theta_deg = static_cast<double>(state.range(1));
+  Setting options;
+  options.at_or_new("delta_theta_deg").value = static_cast<double>(state.range(1));
+  const auto matcher = Registry<Matcher>::instance().make("sampled", options, "matching.sampled");
   std::size_t k = 0;
   for (auto _ : state) {
-    benchmark::DoNotOptimize(
-        matcher->solve({seen[k++ % samples], slots, ownship_weight, delta_theta_deg}));
+    benchmark::DoNotOptimize(matcher->solve({seen[k++ % samples], slots, ownship_weight}));
   }
 }
 void sampled_cases(benchmark::internal::Benchmark* b) {

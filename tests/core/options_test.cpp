@@ -71,6 +71,7 @@ struct Everything {
   Choice<Shape> shape{"square"};
   std::vector<double> weights;
   std::vector<Nested> parts;
+  std::optional<Nested> extra;
   Setting free;
 
   static void declare(Options<Everything>& o) {
@@ -86,6 +87,7 @@ struct Everything {
     o.choice("shape", &Everything::shape, "the shape");
     o.numbers("weights", &Everything::weights, "kg", at_least(0), "how heavy");
     o.tables("part", &Everything::parts, "its parts");
+    o.table("extra", &Everything::extra, "may be left out");
     o.setting("free", &Everything::free, "anything", "as somebody wrote it");
   }
 
@@ -119,6 +121,19 @@ TEST(Options, ReadEveryKindOfValue) {
   const auto points = reading(with("points", value(Setting::List{pair}))).points;
   ASSERT_EQ(points.size(), 1u);
   EXPECT_EQ(points[0], Eigen::Vector2d(1, -2.5));
+}
+
+TEST(Options, KnowWhetherATableWasLeftOut) {
+  const Everything without = reading(Setting{});
+  EXPECT_FALSE(without.extra);
+  EXPECT_EQ(write_options(schema_of<Everything>(), &without).find("extra"), nullptr);
+  EXPECT_NE(schema_of<Everything>().defaults.find_path("extra.count"), nullptr);
+  EXPECT_EQ(reading(with("extra", Setting{})).extra->count, 2) << "empty, and yet given";
+
+  const Everything given = reading(with("extra.count", integer(5)));
+  EXPECT_EQ(given.extra->count, 5);
+  EXPECT_EQ(reading(write_options(schema_of<Everything>(), &given)).extra->count, 5);
+  EXPECT_NE(complaint("extra.count", integer(10)).find("extra.count is 10"), std::string::npos);
 }
 
 TEST(Options, ReadListsOfNumbersAndOfTables) {
@@ -254,7 +269,7 @@ TEST(Options, WriteWhatTheyRead) {
 
 TEST(Options, DescribeThemselves) {
   const Schema& schema = schema_of<Everything>();
-  EXPECT_EQ(schema.options.size(), 13u);
+  EXPECT_EQ(schema.options.size(), 14u);
   EXPECT_EQ(schema.find("speed_m_s")->unit, "m/s");
   EXPECT_EQ(schema.find("mode")->type, "one of \"fast\", \"slow\"");
   EXPECT_EQ(schema.find("nested")->table, &schema_of<Nested>());

@@ -37,13 +37,13 @@ TEST(AssignmentRegistration, FillsTheHoleOfALattice) {
   const Plan lattice = square_lattice(3, 3, 300.0);
   const Neighbours seen = in_reach(heard(lattice, 4, {}, {24, -32}));
   ASSERT_EQ(seen.size(), 8u);
-  const Target exact =
-      behaviour(assignment_kind, {{"ownship_weight", 0.0}, {"delta_theta_deg", 10.0}})
-          ->step({seen, 4}, lattice);
+  const Target exact = behaviour(assignment_kind, {{"ownship_weight", 0.0},
+                                                   {"matching.sampled.delta_theta_deg", 10.0}})
+                           ->step({seen, 4}, lattice);
   EXPECT_LT((exact.position - Vector2d(-24, 32)).norm(), 1e-9);
   // By symmetry no rotation: the step is 8 / (8 + 0.1) of it.
-  const Target thesis =
-      behaviour(assignment_kind, {{"delta_theta_deg", 10.0}})->step({seen, 4}, lattice);
+  const Target thesis = behaviour(assignment_kind, {{"matching.sampled.delta_theta_deg", 10.0}})
+                            ->step({seen, 4}, lattice);
   EXPECT_LT((thesis.position - 8.0 / 8.1 * Vector2d(-24, 32)).norm(), 1e-9);
 }
 
@@ -77,7 +77,7 @@ TEST(AssignmentRegistration, AlignsTheCentroidsAsItsMatchingIsToldTo) {
 
 // Four lattices of the library's sizes, at every slot and in many directions.
 TEST(AssignmentRegistration, StaysWhereALatticeIsReachedWhateverItsPose) {
-  const auto assignment = behaviour(assignment_kind, {{"delta_theta_deg", 10.0}});
+  const auto assignment = behaviour(assignment_kind, {{"matching.sampled.delta_theta_deg", 10.0}});
   for (const Plan& plan : {square_lattice(5, 4, 300.0), square_lattice(3, 3, 300.0)}) {
     for (int own = 0; own < plan.size(); ++own) {
       for (const double deg : {0.0, 4.0, 33.0, 95.0, 181.0, -77.0}) {
@@ -92,9 +92,9 @@ TEST(AssignmentRegistration, StaysWhereALatticeIsReachedWhateverItsPose) {
 }
 
 TEST(AssignmentRegistration, ReturnsToItsSlotWhateverThePoseOfAnyFormation) {
-  const auto assignment =
-      behaviour(assignment_kind,
-                {{"contact_rangeout_m", 1e4}, {"ownship_weight", 0.0}, {"delta_theta_deg", 1.0}});
+  const auto assignment = behaviour(assignment_kind, {{"contact_rangeout_m", 1e4},
+                                                      {"ownship_weight", 0.0},
+                                                      {"matching.sampled.delta_theta_deg", 1.0}});
   EXPECT_TRUE(rc::check("neighbours as planned: exactly the own slot", [&] {
     const Plan plan = drawn_plan(4, 9);
     for (int i = 0; i < plan.size(); ++i) {  // a step of 1 degree tells slots 40 m apart
@@ -108,8 +108,8 @@ TEST(AssignmentRegistration, ReturnsToItsSlotWhateverThePoseOfAnyFormation) {
 }
 
 TEST(AssignmentRegistration, TurnsByWholeStepsAndIgnoresPlanFrameNumbersAndOrder) {
-  const auto assignment =
-      behaviour(assignment_kind, {{"contact_rangeout_m", 1e4}, {"delta_theta_deg", 10.0}});
+  const auto assignment = behaviour(
+      assignment_kind, {{"contact_rangeout_m", 1e4}, {"matching.sampled.delta_theta_deg", 10.0}});
   EXPECT_TRUE(rc::check("rotation by steps, translation of the plan, labels, order", [&] {
     const Plan plan = drawn_plan(3, 10);
     const int own = drawn_int(0, plan.size() - 1);
@@ -165,9 +165,9 @@ TEST(AssignmentRegistration, CountsTheNearestWhenMoreAreHeardThanThePlanHasSlots
 TEST(AssignmentRegistration, PlacesAVehicleInALineOfOthers) {
   const Plan line = plan_of({{0, 0}, {100, 0}, {250, 0}, {450, 0}});
   const Neighbours seen = without_ids(heard(line, 1, rotation(radians(30.0)), {3, 7}));
-  const Target target =
-      behaviour(assignment_kind, {{"ownship_weight", 0.0}, {"delta_theta_deg", 10.0}})
-          ->step({seen, 1}, line);
+  const Target target = behaviour(assignment_kind, {{"ownship_weight", 0.0},
+                                                    {"matching.sampled.delta_theta_deg", 10.0}})
+                            ->step({seen, 1}, line);
   EXPECT_LT((target.position + Vector2d(3, 7)).norm(), 1e-9);
 }
 
@@ -175,8 +175,8 @@ TEST(AssignmentRegistration, NeverAnswersAMirroredFormationWithAReflection) {
   const Plan hook = plan_of({{0, 0}, {300, 0}, {300, 100}, {0, 200}, {150, -100}});
   Neighbours mirrored = without_ids(heard(hook, 0));
   for (Neighbour& n : mirrored) n.position.y() *= -1.0;
-  const Target target =
-      behaviour(assignment_kind, {{"delta_theta_deg", 10.0}})->step({mirrored, 0}, hook);
+  const Target target = behaviour(assignment_kind, {{"matching.sampled.delta_theta_deg", 10.0}})
+                            ->step({mirrored, 0}, hook);
   EXPECT_EQ(target.reason, Reason::placed);
   EXPECT_GT(target.cost, 50.0);  // a reflection would match without residual
 }

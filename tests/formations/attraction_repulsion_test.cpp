@@ -272,13 +272,15 @@ TEST(AttractionRepulsion, GoesByManyNeighboursIfTheSelectionSaysSo) {
 }
 
 TEST(AttractionRepulsion, IsDrawnToAWaypointInTheFrameOfTheOwnPositions) {
-  const auto made = behaviour(attraction_kind, {{"cohesion.kind", "waypoint"},
-                                                {"cohesion.waypoint.x_m", 5000.0},
-                                                {"cohesion.waypoint.weight", 1e-4},
-                                                {"combination", "mean"}});
+  const auto made = behaviour(
+      attraction_kind,
+      {{"cohesion.kind", "waypoint"}, {"cohesion.waypoint.weight", 1e-4}, {"combination", "mean"}});
   const Neighbours lone = neighbours_at({{0, 300}});
-  const Target from_west = made->step({lone, 0, {.position = {0, 0}}}, unused_plan);
-  const Target from_east = made->step({lone, 0, {.position = {10'000, 0}}}, unused_plan);
+  EXPECT_TRUE(made->needs_waypoint());
+  const Vector2d waypoint(5000, 0);
+  const Target from_west = made->step({lone, 0, {.position = {0, 0}}, {}, waypoint}, unused_plan);
+  const Target from_east =
+      made->step({lone, 0, {.position = {10'000, 0}}, {}, waypoint}, unused_plan);
   EXPECT_GT(from_west.position.x(), 10.0);
   EXPECT_LT((from_east.position - Vector2d(-from_west.position.x(), from_west.position.y())).norm(),
             0.01);

@@ -84,7 +84,7 @@ TEST_P(EnrolledBehaviour, AnswersEverySwarmWithAFiniteTargetAndTwiceWithTheSame)
 
 TEST_P(EnrolledBehaviour, HoldsWithAReasonWhenItHearsNobodyAndHasNowhereToGo) {
   const Target target = made->step({{}, 3}, square_lattice(4, 3, 300.0));
-  if (made->waypoint()) {
+  if (made->needs_waypoint()) {
     EXPECT_EQ(target.reason, Reason::placed);
     return;
   }

@@ -45,14 +45,15 @@ TEST_P(EnrolledCohesion, IsLeastAtItsAnchor) {
 
 TEST_P(EnrolledCohesion, HasAnAnchorThatTurnsWithTheWorldWhateverTheOrder) {
   const Transform2 turn = rotation(0.7);
-  const Vector2d own(500, 100);
-  const Vector2d anchor = made->anchor(three_neighbours, own);
+  const Vector2d waypoint(500, 100);
+  const Vector2d anchor = made->anchor(three_neighbours, waypoint);
   EXPECT_TRUE(anchor.allFinite());
   EXPECT_LT(
-      (made->anchor(turned(three_neighbours, turn), turn.rotate(own)) - turn.rotate(anchor)).norm(),
+      (made->anchor(turned(three_neighbours, turn), turn.rotate(waypoint)) - turn.rotate(anchor))
+          .norm(),
       1e-9);
   const Neighbours reversed(three_neighbours.rbegin(), three_neighbours.rend());
-  EXPECT_LT((made->anchor(reversed, own) - anchor).norm(), 1e-9);
+  EXPECT_LT((made->anchor(reversed, waypoint) - anchor).norm(), 1e-9);
 }
 
 INSTANTIATE_TEST_SUITE_P(Cohesions, EnrolledCohesion,
@@ -65,17 +66,17 @@ TEST(NoCohesion, IsNothing) {
 }
 
 TEST(Centroid, IsThatOfTheNeighboursOrOfAll) {
-  const Vector2d own(1e6, 1e6);  // does not matter
-  EXPECT_EQ(cohesion("centroid")->anchor(three_neighbours, own), Vector2d(-100, 200));
-  EXPECT_EQ(cohesion("centroid", {{"counts_own", true}})->anchor(three_neighbours, own),
+  const Vector2d waypoint(1e6, 1e6);  // does not matter
+  EXPECT_EQ(cohesion("centroid")->anchor(three_neighbours, waypoint), Vector2d(-100, 200));
+  EXPECT_EQ(cohesion("centroid", {{"counts_own", true}})->anchor(three_neighbours, waypoint),
             Vector2d(-75, 150));
   EXPECT_DOUBLE_EQ(cohesion("centroid")->at({300, 400}).value, 1e-5 * 250'000.0);
 }
 
 TEST(Waypoint, IsTheSamePlaceFromEverywhere) {
-  const auto waypoint = cohesion("waypoint", {{"x_m", 1000.0}, {"y_m", -50.0}, {"weight", 2.0}});
-  EXPECT_EQ(waypoint->anchor(three_neighbours, {0, 0}), Vector2d(1000, -50));
-  EXPECT_EQ(waypoint->anchor(three_neighbours, {900, 50}), Vector2d(100, -100));
+  const auto waypoint = cohesion("waypoint", {{"weight", 2.0}});
+  EXPECT_TRUE(waypoint->needs_waypoint());
+  EXPECT_EQ(waypoint->anchor(three_neighbours, {100, -100}), Vector2d(100, -100));
   EXPECT_DOUBLE_EQ(waypoint->at({3, 4}).value, 50.0);
   EXPECT_EQ(waypoint->at({3, 4}).gradient, Vector2d(12, 16));
 }

@@ -1,4 +1,4 @@
-#include "shoal/formations/guidance.hpp"
+#include "shoal/formations/guidances/drift.hpp"
 
 #include <gtest/gtest.h>
 
@@ -10,11 +10,17 @@ namespace {
 using Eigen::Vector2d;
 
 /// A guidance and the memory of its vehicle.
-struct Pilot {
-  DriftGuidance guidance;
-  DriftGuidance::State state;
+class Pilot {
+ public:
+  explicit Pilot(const DriftOptions& options = {}) : guidance_(options) {}
 
-  Command to(double x, double y) { return guidance.command({x, y}, state); }
+  Command to(double x, double y) {
+    return guidance_.command(Target::at({x, y}, 0.0), {x, y}, {}, memory_.get());
+  }
+
+ private:
+  Drift guidance_;
+  OwnedMemory memory_ = guidance_.new_memory();
 };
 
 Setting options_of(std::initializer_list<std::pair<const char*, double>> entries) {
@@ -24,7 +30,7 @@ Setting options_of(std::initializer_list<std::pair<const char*, double>> entries
 }
 
 std::string complaint(const Setting& options) {
-  DriftGuidance guidance;
+  DriftOptions guidance;
   try {
     read(guidance, options, "guidance");
   } catch (const InputError& error) {
@@ -33,8 +39,8 @@ std::string complaint(const Setting& options) {
   return "";
 }
 
-TEST(DriftGuidance, HasTheDefaultsOfTheThesis) {  // Table 3.1
-  const DriftGuidance g;
+TEST(Drift, HasTheDefaultsOfTheThesis) {  // Table 3.1
+  const DriftOptions g;
   EXPECT_EQ(g.speed_m_s, 1.0);
   EXPECT_EQ(g.capture_radius_m, 3.0);
   EXPECT_EQ(g.slip_radius_m, 10.0);
@@ -43,14 +49,14 @@ TEST(DriftGuidance, HasTheDefaultsOfTheThesis) {  // Table 3.1
   EXPECT_EQ(g.targets_filter_size, 1);
 }
 
-TEST(DriftGuidance, DriftsAtFirstUntilTheTargetIsOutsideTheDriftingRadius) {
+TEST(Drift, DriftsAtFirstUntilTheTargetIsOutsideTheDriftingRadius) {
   Pilot pilot;
   EXPECT_FALSE(pilot.to(19.9, 0).thrust);
   EXPECT_FALSE(pilot.to(20.0, 0).thrust);
   EXPECT_TRUE(pilot.to(20.1, 0).thrust);
 }
 
-TEST(DriftGuidance, HeadsForTheTargetAtTransitSpeed) {
+TEST(Drift, HeadsForTheTargetAtTransitSpeed) {
   Pilot pilot;
   const Command west = pilot.to(-50.0, 0.0);
   EXPECT_TRUE(west.thrust);
@@ -59,7 +65,7 @@ TEST(DriftGuidance, HeadsForTheTargetAtTransitSpeed) {
   EXPECT_DOUBLE_EQ(pilot.to(30.0, 30.0).heading_rad, std::numbers::pi / 4);
 }
 
-TEST(DriftGuidance, SlowsLinearlyBetweenDriftingAndCaptureRadius) {
+TEST(Drift, SlowsLinearlyBetweenDriftingAndCaptureRadius) {
   Pilot pilot;
   EXPECT_EQ(pilot.to(0, 21).speed_m_s, 1.0);
   EXPECT_DOUBLE_EQ(pilot.to(0, 20).speed_m_s, 1.0);
@@ -68,14 +74,14 @@ TEST(DriftGuidance, SlowsLinearlyBetweenDriftingAndCaptureRadius) {
   EXPECT_DOUBLE_EQ(pilot.to(0, 3).speed_m_s, 0.5);
 }
 
-TEST(DriftGuidance, ScalesTheEndSpeedWithTheTransitSpeed) {
-  Pilot pilot{{.speed_m_s = 0.4, .end_speed_scale = 0.25}, {}};
+TEST(Drift, ScalesTheEndSpeedWithTheTransitSpeed) {
+  Pilot pilot({.speed_m_s = 0.4, .end_speed_scale = 0.25});
   EXPECT_EQ(pilot.to(0, 21).speed_m_s, 0.4);
   EXPECT_DOUBLE_EQ(pilot.to(0, 11.5).speed_m_s, 0.4 * 0.625);
   EXPECT_DOUBLE_EQ(pilot.to(0, 3).speed_m_s, 0.1);
 }
 
-TEST(DriftGuidance, ArrivesInsideTheCaptureRadius) {
+TEST(Drift, ArrivesInsideTheCaptureRadius) {
   Pilot pilot;
   pilot.to(25, 0);
   EXPECT_TRUE(pilot.to(3.0, 0).thrust);
@@ -84,7 +90,7 @@ TEST(DriftGuidance, ArrivesInsideTheCaptureRadius) {
   EXPECT_EQ(arrived.speed_m_s, 0.0);
 }
 
-TEST(DriftGuidance, ArrivesInsideTheSlipRadiusWhenItNoLongerCloses) {
+TEST(Drift, ArrivesInsideTheSlipRadiusWhenItNoLongerCloses) {
   Pilot pilot;
   pilot.to(25, 0);
   EXPECT_TRUE(pilot.to(9.0, 0).thrust);
@@ -92,7 +98,7 @@ TEST(DriftGuidance, ArrivesInsideTheSlipRadiusWhenItNoLongerCloses) {
   EXPECT_FALSE(pilot.to(8.1, 0).thrust);
 }
 
-TEST(DriftGuidance, DoesNotArriveOutsideTheSlipRadiusWhenItNoLongerCloses) {
+TEST(Drift, DoesNotArriveOutsideTheSlipRadiusWhenItNoLongerCloses) {
   Pilot pilot;
   pilot.to(25, 0);
   EXPECT_TRUE(pilot.to(12.0, 0).thrust);
@@ -100,7 +106,7 @@ TEST(DriftGuidance, DoesNotArriveOutsideTheSlipRadiusWhenItNoLongerCloses) {
 }
 
 // Section 3.2 describes the latch that Alg. 1 as printed lacks.
-TEST(DriftGuidance, HoldsTheDriftLatchUntilTheVehicleLeavesTheDriftingRadius) {
+TEST(Drift, HoldsTheDriftLatchUntilTheVehicleLeavesTheDriftingRadius) {
   Pilot pilot;
   pilot.to(25, 0);
   EXPECT_FALSE(pilot.to(1, 0).thrust);
@@ -110,29 +116,39 @@ TEST(DriftGuidance, HoldsTheDriftLatchUntilTheVehicleLeavesTheDriftingRadius) {
   EXPECT_TRUE(pilot.to(15, 0).thrust);  // and now it goes all the way
 }
 
-TEST(DriftGuidance, DriftsOnWhenTheTargetIsTheOwnPosition) {
+TEST(Drift, DriftsOnWhenTheTargetIsTheOwnPosition) {
   Pilot pilot;
   EXPECT_FALSE(pilot.to(0, 0).thrust);
   pilot.to(40, 0);
   EXPECT_FALSE(pilot.to(0, 0).thrust);  // a held target: arrived at once
 }
 
-TEST(DriftGuidance, AveragesTheLastTargets) {  // Alg. 2
-  Pilot pilot{{.targets_filter_size = 3}, {}};
+TEST(Drift, AveragesTheLastTargets) {  // Alg. 2
+  Pilot pilot({.targets_filter_size = 3});
   EXPECT_DOUBLE_EQ(pilot.to(30, 0).heading_rad, 0.0);                     // mean (30, 0)
   EXPECT_DOUBLE_EQ(pilot.to(0, 30).heading_rad, std::numbers::pi / 4);    // (15, 15)
   EXPECT_DOUBLE_EQ(pilot.to(-30, 30).heading_rad, std::numbers::pi / 2);  // (0, 20)
   EXPECT_DOUBLE_EQ(pilot.to(-30, -60).heading_rad, std::numbers::pi);  // (-20, 0): the first left
 }
 
-TEST(DriftGuidance, JudgesDistanceByTheAveragedTarget) {
-  Pilot pilot{{.targets_filter_size = 2}, {}};
+TEST(Drift, JudgesDistanceByTheAveragedTarget) {
+  Pilot pilot({.targets_filter_size = 2});
   EXPECT_TRUE(pilot.to(30, 0).thrust);
   EXPECT_FALSE(pilot.to(-30, 0).thrust);  // the mean is here
 }
 
-TEST(DriftGuidance, ComplainsOfRadiiThatDoNotGrow) {
+TEST(Drift, IsCopiedWithItsLatch) {
+  Pilot pilot;
+  pilot.to(25, 0);
+  Pilot copy = pilot;
+  EXPECT_FALSE(pilot.to(1, 0).thrust);
+  EXPECT_TRUE(copy.to(15, 0).thrust);    // still under way
+  EXPECT_FALSE(pilot.to(15, 0).thrust);  // latched
+}
+
+TEST(Drift, ComplainsOfRadiiThatDoNotGrow) {
   EXPECT_EQ(complaint(options_of({})), "");
+  EXPECT_THROW(Drift({.capture_radius_m = 11}), InputError);
   EXPECT_EQ(complaint(options_of({{"capture_radius_m", 3}, {"slip_radius_m", 3}})), "");
   for (const Setting& wrong :
        {options_of({{"capture_radius_m", 11}}), options_of({{"slip_radius_m", 21}}),

@@ -20,7 +20,7 @@ using Eigen::Vector2d;
 using Points = std::vector<Vector2d>;
 using Neighbours = std::vector<Neighbour>;
 
-/// Dotted names and values: {{"delta_theta_deg", 10.0}, {"solver.kind", "nlopt.mma"}}.
+/// Dotted names and values: {{"separation_m", 100.0}, {"solver.kind", "nlopt.mma"}}.
 using Table = std::initializer_list<std::pair<const char*, decltype(Setting::value)>>;
 
 inline const std::string rigid_kind = "rigid_registration";

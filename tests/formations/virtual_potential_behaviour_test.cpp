@@ -21,8 +21,8 @@ TEST(VirtualPotentialBehaviour, GivesTheForceOfItsPotential) {
   const OwnState own{.position = {20, 5}, .velocity = {1.2, 0.1}, .heading_rad = 0.1};
   const Neighbours others{{{0, 30}, 0.0, anonymous, {1.0, 0.0}, 0.2},
                           {{900, 0}, 0.0, anonymous, {0.0, 0.0}, 0.0}};
-  const Target target = behaviour("virtual_potential", {{"waypoint_x_m", 300.0}})
-                            ->step({others, 0, own, {&circle, 1}}, square);
+  const Target target =
+      behaviour("virtual_potential")->step({others, 0, own, {&circle, 1}, {300, 0}}, square);
   const VirtualPotential potential({}, {300, 0}, {&circle, 1});
   const Agent near{{20, 35}, 0.2};  // the other one is out of range
   ASSERT_TRUE(target.force_m_s2);
@@ -39,7 +39,7 @@ TEST(VirtualPotentialBehaviour, LooksAheadForAllVehiclesAlike) {
   const auto cells_only = [&](double lead_s) {
     const auto made =
         behaviour("virtual_potential", {{"lead_s", lead_s}, {"gains.waypoint.pull_m_s2", 0.0}});
-    return *made->step({others, 0, own}, square).force_m_s2;
+    return *made->step({others, 0, own, {}, {500, 0}}, square).force_m_s2;
   };
   EXPECT_LT((cells_only(0.0) - cells_only(8.0)).norm(), 1e-12);
 
@@ -49,18 +49,18 @@ TEST(VirtualPotentialBehaviour, LooksAheadForAllVehiclesAlike) {
   const OwnState later{.position = own.position + 5.0 * together, .velocity = together};
   const Neighbours then{{{0, 20}, 0.0, anonymous, {1.3, -2.2}, 0.0}};
   const auto unled = behaviour("virtual_potential");
-  EXPECT_LT((*made->step({closing, 0, own}, square).force_m_s2 -
-             *unled->step({then, 0, later}, square).force_m_s2)
+  EXPECT_LT((*made->step({closing, 0, own, {}, {500, 0}}, square).force_m_s2 -
+             *unled->step({then, 0, later, {}, {500, 0}}, square).force_m_s2)
                 .norm(),
             1e-12);
 }
 
 TEST(VirtualPotentialStep, GoesToTheMinimumWithinReach) {
-  const auto made =
-      behaviour("virtual_potential_step", {{"waypoint_x_m", 500.0}, {"reach_m", 25.0}});
-  const Target ahead = made->step({{}, 0, {.position = {0, 0}}}, square);
+  const auto made = behaviour("virtual_potential_step", {{"reach_m", 25.0}});
+  const Vector2d waypoint(500, 0);
+  const Target ahead = made->step({{}, 0, {.position = {0, 0}}, {}, waypoint}, square);
   EXPECT_NEAR(ahead.position.x(), 25.0, 1e-6) << "as far as it may";
-  const Target there = made->step({{}, 0, {.position = {495, 2}}}, square);
+  const Target there = made->step({{}, 0, {.position = {495, 2}}, {}, waypoint}, square);
   EXPECT_NEAR(there.position.x(), 5.0, 1e-4);
   EXPECT_NEAR(there.position.y(), -2.0, 1e-4);
 }

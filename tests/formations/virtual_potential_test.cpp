@@ -82,7 +82,7 @@ std::shared_ptr<const Obstacle> shared(auto shape) {
   return std::make_shared<const decltype(shape)>(shape);
 }
 
-/// A way-point behind an ellipse and a rectangle, and two other agents.
+/// A waypoint behind an ellipse and a rectangle, and two other agents.
 struct Sea {
   Vector2d waypoint{100, 10};
   std::vector<std::shared_ptr<const Obstacle>> obstacles{shared(Ellipse({40, 0}, 15, 6, 0.4)),

@@ -125,8 +125,8 @@ TEST_F(Inherits, ErrorsNameTheFileAndLineOfWhatIsWrong) {
   EXPECT_EQ(complaint(own), fs::canonical(base).string() +
                                 ":3: ping has no option \"peroid_s\"; did you mean \"period_s\"?");
   const fs::path both = written("both.toml", "inherits = \"slip.toml\"\n\n[trial]\ntick_s = 0.3\n");
-  written("slip.toml", "[guidance]\nperiod_s = 0.25\n");
-  EXPECT_NE(complaint(both).find("slip.toml:2: guidance.period_s"), std::string::npos)
+  written("slip.toml", "[guidance.drift]\nperiod_s = 0.25\n");
+  EXPECT_NE(complaint(both).find("slip.toml:2: guidance.drift.period_s"), std::string::npos)
       << complaint(both);
 }
 

@@ -1,4 +1,4 @@
-// Vehicles in six degrees of freedom, obstacles and way-points in a simulated sea.
+// Vehicles in six degrees of freedom, obstacles and waypoints in a simulated sea.
 
 #include <gtest/gtest.h>
 
@@ -19,7 +19,7 @@ Scenario scenario(const std::string& name, const std::vector<std::string>& sets)
 
 const std::vector<std::string> perfect{"swarm.vehicle.nps_auv.estimator.kind=perfect",
                                        "swarm.vehicle.nps_auv.disturbance.on=false",
-                                       "arrival.ends_trial=false"};
+                                       "waypoint.ends_trial=false"};
 
 std::vector<std::string> and_also(std::vector<std::string> sets, const std::string& set) {
   sets.push_back(set);
@@ -51,7 +51,7 @@ TEST(NpsAuvSwarm, GivesTheSameBitsForAnyNumberOfThreads) {
   // Blocks hold 64 vehicles; these do not hear one another.
   const std::vector<std::string> many{"plan.square={rows=9,columns=10,separation_m=1000}",
                                       "swarm.start.kind=plan", "trial.duration_s=20",
-                                      "behaviour.virtual_potential.waypoint_x_m=0"};
+                                      "waypoint.x_m=0"};
   const Scenario s = scenario("potentials_channel", and_also(many, "obstacle=[]"));
   EXPECT_EQ(end_of(s, 1), end_of(s, 3));
 }
@@ -67,7 +67,7 @@ TEST(NpsAuvSwarm, IsDrivenByABehaviourOfTheThesis) {
     worst_s = std::max(worst_s, world.planner(i).target_from(world.swarm().own_position(i)).norm());
     EXPECT_GT(world.logbook(i).distance_m, 30.0);
   }
-  EXPECT_LT(worst_s, 2.0 * s.guidance.drifting_radius_m);
+  EXPECT_LT(worst_s, 2.0 * *world.guidance().drifting_radius_m());
 }
 
 TEST(NpsAuvSwarm, DriftsWithTheCurrent) {
@@ -75,8 +75,9 @@ TEST(NpsAuvSwarm, DriftsWithTheCurrent) {
       "potentials_channel",
       {"swarm.vehicle.nps_auv.estimator.kind=perfect", "swarm.vehicle.nps_auv.disturbance.on=false",
        "current.kind=uniform", "current.uniform={u_m_s=0.2,v_m_s=-0.1}", "trial.duration_s=100",
-       "behaviour.kind=rigid_registration", "planner.update=ping", "arrival.ends_trial=false",
-       "plan.square.separation_m=30", "guidance.drifting_radius_m=5000", "obstacle=[]"});
+       "behaviour.kind=rigid_registration", "planner.update=ping", "waypoint.ends_trial=false",
+       "guidance.kind=drift", "plan.square.separation_m=30",
+       "guidance.drift.drifting_radius_m=5000", "obstacle=[]"});
   World world(s);
   const std::vector<double> x = world.swarm().x_m, y = world.swarm().y_m;
   world.run({});
@@ -90,7 +91,8 @@ TEST(NpsAuvSwarm, RefusesStepsThatDoNotFit) {
   EXPECT_NE(complaint("potentials_channel", {"swarm.vehicle.nps_auv.step_s=0.3"})
                 .find("controller_period_s is 0.1 s; it must be a multiple of step_s = 0.3 s"),
             std::string::npos);
-  EXPECT_NE(complaint("potentials_channel", {"trial.tick_s=0.02", "guidance.period_s=0.02"})
+  EXPECT_NE(complaint("potentials_channel",
+                      {"trial.tick_s=0.02", "guidance.conditioned_force.period_s=0.02"})
                 .find("trial.tick_s must be a multiple of the vehicle's step_s"),
             std::string::npos);
 }
@@ -112,7 +114,7 @@ TEST(VirtualPotentials, HoldTheSquareAndBringItToTheWaypoint) {
 }
 
 TEST(VirtualPotentials, EndTheTrialOnArrivalIfAsked) {
-  World world(scenario("potentials_channel", and_also(perfect, "arrival.ends_trial=true")));
+  World world(scenario("potentials_channel", and_also(perfect, "waypoint.ends_trial=true")));
   world.run({});
   double last_s = 0.0;
   for (std::size_t i = 0; i < world.size(); ++i) last_s = std::max(last_s, world.arrived_s(i));
@@ -123,7 +125,7 @@ TEST(VirtualPotentials, EndTheTrialOnArrivalIfAsked) {
 TEST(VirtualPotentials, EndTheTrialAtTheSameTimeWhoeverLooks) {
   const Scenario s =
       scenario("potentials_channel",
-               and_also(and_also(perfect, "arrival.ends_trial=true"), "ping.period_s=7"));
+               and_also(and_also(perfect, "waypoint.ends_trial=true"), "ping.period_s=7"));
   struct Looker final : Observer {
     double every_s() const override { return 0.5; }
     void observe(const World&) override {}
@@ -146,8 +148,9 @@ TEST(VirtualPotentials, AreABehaviourOfTheDrifterToo) {
 }
 
 TEST(VirtualPotentials, AsAProblemLeadVehiclesToTheWaypointToo) {
-  World world(
-      scenario("potentials_channel", and_also(perfect, "behaviour.kind=virtual_potential_step")));
+  World world(scenario(
+      "potentials_channel",
+      and_also(and_also(perfect, "behaviour.kind=virtual_potential_step"), "guidance.kind=drift")));
   world.run({});
   for (std::size_t i = 0; i < world.size(); ++i) EXPECT_GT(world.arrived_s(i), 0.0);
 }
@@ -178,9 +181,8 @@ TEST(Obstacles, MustNotCoverStartsOrTheWaypoint) {
   };
   says({"swarm.start.points.points=[[200,100],[15,-15],[-14,15],[15,15.5]]"},
        ": obstacle 1 (rectangle) covers the start of NODE_1 at (200, 100); move one of the two");
-  says({"behaviour.virtual_potential.waypoint_x_m=250",
-        "behaviour.virtual_potential.waypoint_y_m=-100"},
-       ": obstacle 2 (rectangle) covers the way-point at (250, -100); move one of the two");
+  says({"waypoint.x_m=250", "waypoint.y_m=-100"},
+       ": obstacle 2 (rectangle) covers the waypoint at (250, -100); move one of the two");
 }
 
 TEST(Obstacles, AreNotMetByVehiclesThatPassThem) {

@@ -68,11 +68,14 @@ Keys options_involved(const std::string& set) {
   const Setting written = with_inherited(read_toml(set_file(set)), files).settings;
   Keys keys;
   for (const Option& option : schema_of<Scenario>().options) {
-    if (option.table && option.name != "faults" && option.name != "envelope" &&
-        option.name != "arrival" && option.name != "swarm") {
+    if (option.table && option.name != "faults" && option.name != "waypoint" &&
+        option.name != "swarm") {
       declared(*option.table, written, option.name, keys);
     }
   }
+  keys.insert("guidance.kind");
+  declared(Registry<formations::Guidance>::instance().find("drift")->schema(), written,
+           "guidance.drift", keys);
   keys.insert("swarm.vehicle.kind");
   declared(Registry<VehicleType>::instance().find("drifter")->schema(), written,
            "swarm.vehicle.drifter", keys);
@@ -130,7 +133,7 @@ TEST(Sets, EveryValueHasItsSourceBesideIt) {
 
 TEST(Sets, ScenariosOfTheThesisHoldOnlyWhatMakesThem) {
   // Where a section says otherwise than the tables of chapter 3.
-  const Keys said_by_sections{"behaviour.assignment_registration.delta_theta_deg",
+  const Keys said_by_sections{"behaviour.assignment_registration.matching.sampled.delta_theta_deg",
                               "behaviour.rigid_registration.ownship_weight"};
   const Keys settled = named_in("text");
   int found = 0;

@@ -18,11 +18,11 @@ struct Choices {
   double tie_m = 0.5;
   bool plain = false;
   double ownship_weight = 1.0;
-  int asker = -1;
 };
 
 std::unique_ptr<Matcher> sampled(const Choices& choices) {
   Setting setting;
+  setting.at_or_new("delta_theta_deg").value = choices.delta_theta_deg;
   setting.at_or_new("tie_m").value = choices.tie_m;
   setting.at_or_new("centroids").value = std::string(choices.plain ? "plain" : "weighted");
   return Registry<Matcher>::instance().make("sampled", setting, "matching.sampled");
@@ -35,9 +35,8 @@ struct Answer {
 };
 
 Answer matched(const std::vector<Vector2d>& points, const std::vector<Vector2d>& slots,
-               const Choices& choices) {
-  const auto s = sampled(choices)->solve(
-      {points, slots, choices.ownship_weight, choices.delta_theta_deg, choices.asker});
+               const Choices& choices, Memory* memory = nullptr) {
+  const auto s = sampled(choices)->solve({points, slots, choices.ownship_weight}, memory);
   return {{s.slot_of_point.begin(), s.slot_of_point.end()}, s.cost, s.rotation, s.usable()};
 }
 
@@ -110,7 +109,7 @@ TEST(Sampled, CostsWhatThePlainLoopOverSeedsAndTurnsCosts) {
   }
 }
 
-// Somebody in the middle of a swarm that turns, spreads and jitters, and at times jumps.
+// A vehicle in the middle of a swarm that turns, spreads and jitters, and at times jumps.
 std::vector<Vector2d> seen_at(int step, const std::vector<Vector2d>& slots,
                               std::mt19937& generator) {
   std::normal_distribution<double> jitter(0.0, step % 23 == 0 ? 15.0 : 0.2);
@@ -127,39 +126,44 @@ std::vector<Vector2d> seen_at(int step, const std::vector<Vector2d>& slots,
   return points;
 }
 
-TEST(Sampled, TellsWhoAsksAgainWhatItTellsAnybody) {
+TEST(Sampled, AnswersWithMemoryAsWithout) {
   std::mt19937 generator(4);
   const std::vector plans{lattice(4, 5, 300.0), hexagonal_by_rows(4, 5, 300.0)};
   for (const double delta_theta_deg : {10.0, 45.0}) {
-    for (int step = 0; step < 800; ++step) {
-      // Two vehicles take turns; now and then they are asked about another plan.
-      const auto& slots = plans[step % 150 < 120 ? 0 : 1];
-      const auto points = seen_at(step, slots, generator);
-      Choices choices{.delta_theta_deg = delta_theta_deg, .plain = step % 300 < 150};
-      const Answer anybody = matched(points, slots, choices);
-      for (const int asker : {0, 5}) {
-        choices.asker = asker;
-        const Answer again = matched(points, slots, choices);
-        ASSERT_EQ(again.slot_of_point, anybody.slot_of_point) << step;
-        ASSERT_EQ(again.cost, anybody.cost) << step;
-        ASSERT_EQ(again.rotation, anybody.rotation) << step;
+    for (const bool plain : {true, false}) {
+      const Choices choices{.delta_theta_deg = delta_theta_deg, .plain = plain};
+      const auto matcher = sampled(choices);
+      OwnedMemory memories[] = {matcher->new_memory(), matcher->new_memory()};
+      for (int step = 0; step < 400; ++step) {
+        // Two vehicles take turns; now and then they are asked about another plan.
+        const auto& slots = plans[step % 150 < 120 ? 0 : 1];
+        const auto points = seen_at(step, slots, generator);
+        const Answer without = matched(points, slots, choices);
+        for (OwnedMemory& memory : memories) {
+          const auto with = matcher->solve({points, slots, choices.ownship_weight}, memory.get());
+          ASSERT_TRUE(std::ranges::equal(with.slot_of_point, without.slot_of_point)) << step;
+          ASSERT_EQ(with.cost, without.cost) << step;
+          ASSERT_EQ(with.rotation, without.rotation) << step;
+        }
       }
     }
   }
 }
 
-TEST(Sampled, BreaksTiesForWhoAsksAgainAsForAnybody) {
+TEST(Sampled, BreaksTiesWithMemoryAsWithout) {
   // On the lattice itself, and half-way between two turns: many matches cost the same.
+  const Choices choices{.delta_theta_deg = 10.0};
   for (const double turned_deg : {0.0, 5.0, 45.0, 90.0}) {
     const auto slots = lattice(3, 3, 100.0);
     const auto placed = tests::moved(slots, Transform2::from_angle(radians(turned_deg), {3, 4}));
-    const Answer anybody = matched(placed, slots, {.delta_theta_deg = 10.0});
+    const Answer without = matched(placed, slots, choices);
+    OwnedMemory memory = sampled(choices)->new_memory();
     for (int i = 0; i < 5; ++i) {
       auto shaken = placed;
       for (Vector2d& p : shaken) p *= 1.0 + 1e-9 * i;
-      const Answer again = matched(shaken, slots, {.delta_theta_deg = 10.0, .asker = 1});
-      EXPECT_EQ(again.slot_of_point, anybody.slot_of_point) << turned_deg;
-      EXPECT_EQ(again.rotation, anybody.rotation) << turned_deg;
+      const Answer with = matched(shaken, slots, choices, memory.get());
+      EXPECT_EQ(with.slot_of_point, without.slot_of_point) << turned_deg;
+      EXPECT_EQ(with.rotation, without.rotation) << turned_deg;
     }
   }
 }
@@ -253,9 +257,8 @@ TEST(Sampled, RefusesWhatItCannotMatch) {
 }
 
 TEST(Sampled, RefusesAStepThatIsNoStep) {
-  const auto slots = lattice(2, 2, 300.0);
-  for (const double step : {0.0, 1e-7, -10.0, 361.0, std::numeric_limits<double>::quiet_NaN()}) {
-    EXPECT_FALSE(matched(slots, slots, {.delta_theta_deg = step}).usable) << step;
+  for (const double step : {0.0, 1e-7, -10.0, 181.0, std::numeric_limits<double>::quiet_NaN()}) {
+    EXPECT_THROW(sampled({.delta_theta_deg = step}), InputError) << step;
   }
   EXPECT_THROW(sampled({.tie_m = -1.0}), InputError);
 }

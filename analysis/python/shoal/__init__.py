@@ -12,7 +12,7 @@ are radians, of the compass where they are degrees in files.
 Bad input raises InputError with the sentence that the program prints.
 """
 
-from ._shoal import (InputError, OwnState, Ping, PingFilter, Plan, Planner, Problem, Solution, SystemError, Table,
+from ._shoal import (Command, InputError, OwnState, Ping, PingFilter, Plan, Planner, Problem, Solution, SystemError, Table,
                      formation_quality, match, posed, program, register, solve)
 from ._shoal import version as __version__
 from ._catalogue import catalogue, measures, options
@@ -20,7 +20,7 @@ from ._potentials import Potential, potential
 from ._studies import claims, study_dataset, study_report, sweep, tables, trials, write_tables
 from ._trials import Run, current, run, scenario
 
-__all__ = ["InputError", "OwnState", "Ping", "PingFilter", "Plan", "Planner", "Potential", "Problem", "Run",
+__all__ = ["Command", "InputError", "OwnState", "Ping", "PingFilter", "Plan", "Planner", "Potential", "Problem", "Run",
            "Solution", "SystemError", "Table", "__version__", "catalogue", "claims", "current",
            "formation_quality", "match", "measures", "options", "posed", "potential", "program",
            "register", "run", "scenario", "solve", "study_dataset", "study_report", "sweep", "tables",

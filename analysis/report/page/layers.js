@@ -23,11 +23,12 @@ const LAYERS = [
    draw: drawPlan},
   {name: "trails", label: "Trails", shown: true, draw: null},  // kept by the class Trails
   {name: "ends", label: "Starts and ends", shown: true, draw: drawEnds},
-  {name: "waypoint", label: "Way-point", shown: true, of: trial => trial.data.waypoint !== null,
+  {name: "waypoint", label: "Waypoint", shown: true, of: trial => trial.data.waypoint !== null,
    draw: drawWaypoint},
   {name: "targets", label: "Targets", shown: false, of: trial => trial.columns.target_x,
    draw: drawTargets},
-  {name: "drift", label: "Drifting radius", shown: false, draw: drawDriftingRadius},
+  {name: "drift", label: "Drifting radius", shown: false,
+   of: trial => trial.data.drifting_radius_m !== null, draw: drawDriftingRadius},
   {name: "range", label: "Range and links", shown: true, draw: drawRange},
   {name: "vehicles", label: "Vehicles", shown: true, draw: drawVehicles},
 ];

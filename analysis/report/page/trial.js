@@ -124,7 +124,7 @@ class Trial {
     return move && this.data.plan.map(move);
   }
 
-  /** [least, greatest] of everywhere that vehicles, obstacles and the way-point are. */
+  /** [least, greatest] of everywhere that vehicles, obstacles and the waypoint are. */
   bounds() {
     const bounds = {x: [Infinity, -Infinity], y: [Infinity, -Infinity]};
     const hold = (axis, number) => {
