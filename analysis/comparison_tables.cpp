@@ -22,7 +22,7 @@ std::vector<double> least(const ContenderFamily& family, Quantity quantity) {
   for (const Contender& contender : family.contenders) {
     for (std::size_t k = 0; k < values.size(); ++k) {
       const SolverAnswer& answer = contender.answers[k];
-      if (answer.solved) values[k] = std::min(values[k], static_cast<double>(quantity(answer)));
+      if (answer.solved()) values[k] = std::min(values[k], static_cast<double>(quantity(answer)));
     }
   }
   return values;
@@ -71,8 +71,9 @@ Tally tally_of(const Contender& contender, const Contender& reference,
   Tally tally;
   for (std::size_t k = 0; k < contender.answers.size(); ++k) {
     const SolverAnswer& answer = contender.answers[k];
-    if (!answer.solved) {
-      ++tally.failures[answer.refused ? "refused: " + answer.status : answer.status];
+    if (!answer.solved()) {
+      ++tally.failures[answer.refusal.empty() ? std::string(name_of(answer.status))
+                                              : "refused: " + answer.refusal];
       continue;
     }
     ++tally.solved;
@@ -80,7 +81,7 @@ Tally tally_of(const Contender& contender, const Contender& reference,
     tally.microseconds.push_back(1e6 * answer.seconds);
     tally.worst_gap = std::max(tally.worst_gap, answer.cost - lowest[k]);
     const SolverAnswer& known = reference.answers[k];
-    if (!known.solved) continue;
+    if (!known.solved()) continue;
     const bool near = (answer.place - known.place).norm() <= same_within_m;
     ++(near ? tally.same : tally.other);
   }
@@ -97,7 +98,7 @@ void add_profile(const ContenderFamily& family, const char* measure, Effort effo
       double within = 0.0;
       for (std::size_t k = 0; k < best.size(); ++k) {
         const SolverAnswer& answer = contender.answers[k];
-        within += answer.solved && effort(answer) <= factor * best[k] ? 1.0 : 0.0;
+        within += answer.solved() && effort(answer) <= factor * best[k] ? 1.0 : 0.0;
       }
       table.rows.push_back(
           {family.name, measure, contender.name, number(factor, Digits::significant(4)),

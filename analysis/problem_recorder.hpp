@@ -24,17 +24,9 @@ class ProblemRecorder {
  private:
   class OfVehicle final : public formations::PlanObserver {
    public:
-    void solved(const solvers::Problem&, const solvers::Solution&, double) override {
-      solved_ = true;
-    }
-    void solved(const solvers::RegistrationProblem&, const solvers::RegistrationSolution&,
-                double) override {
-      solved_ = true;
-    }
-    void solved(const solvers::MatchingProblem&, const solvers::MatchingSolution&,
-                double) override {
-      solved_ = true;
-    }
+    /// The situation is noted, and not the problem, which it states again.
+    Wants wants() const override { return {.problems = false}; }
+    void answered(const solvers::Answer&, double) override { solved_ = true; }
     void planned(const formations::Neighbourhood& seen, const formations::Target&) override;
 
     std::vector<Situation> noted;

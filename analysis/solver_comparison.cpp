@@ -1,12 +1,54 @@
 #include "shoal/analysis/solver_comparison.hpp"
 
 #include <algorithm>
+#include <chrono>
 
 #include "shoal/core/text.hpp"
 #include "shoal/formations/solving.hpp"
 
 namespace shoal::analysis {
 namespace {
+
+Eigen::VectorXd stacked(std::size_t count, auto point) {
+  Eigen::VectorXd all(2 * static_cast<Eigen::Index>(count));
+  for (std::size_t i = 0; i < count; ++i) {
+    all.segment<2>(2 * static_cast<Eigen::Index>(i)) = point(i);
+  }
+  return all;
+}
+
+Eigen::VectorXd place_of(const solvers::Problem&, const solvers::Solution& solution) {
+  return solution.x;
+}
+
+Eigen::VectorXd place_of(const solvers::RegistrationProblem& problem,
+                         const solvers::RegistrationSolution& solution) {
+  return stacked(problem.pairs.size(), [&](std::size_t i) -> Eigen::Vector2d {
+    return solution.T_to_from * problem.pairs[i].from;
+  });
+}
+
+Eigen::VectorXd place_of(const solvers::MatchingProblem& problem,
+                         const solvers::MatchingSolution& solution) {
+  return stacked(solution.slot_of_point.size(), [&](std::size_t i) {
+    return problem.slots[static_cast<std::size_t>(solution.slot_of_point[i])];
+  });
+}
+
+template <class Solver, class Problem>
+SolverAnswer answered(const Solver& solver, const Problem& problem) {
+  SolverAnswer answer;
+  if (auto why = solver.refuses(problem)) {
+    answer.refusal = std::move(*why);
+    return answer;
+  }
+  const auto begin = std::chrono::steady_clock::now();
+  const auto solution = solver.solve(problem);
+  answer.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  static_cast<solvers::Answer&>(answer) = solution;
+  answer.place = place_of(problem, solution);
+  return answer;
+}
 
 /// The solvers of one family that were named.
 template <class Member>
@@ -29,10 +71,11 @@ struct Entrants {
 
   /// One solver after another, not problem by problem: a large one would leave the others a cold
   /// cache, and a time that is not theirs.
-  template <class Problems>
-  void meet(const Problems& problems) {
+  template <class Problem>
+  void meet(const auto& problems) {
     for (std::size_t k = 0; k < solvers.size(); ++k) {
-      for (const auto& problem : problems) {
+      for (const auto& each : problems) {
+        const Problem& problem = each;
         family.contenders[k].answers.push_back(answered(*solvers[k], problem));
       }
     }
@@ -53,15 +96,14 @@ class Gathered final : public solvers::SolveObserver {
     operator solvers::MatchingProblem() const { return {points, slots, ownship_weight}; }  // NOLINT
   };
 
-  void solved(const solvers::Problem& problem, const solvers::Solution&, double) override {
+  void solved(const solvers::Problem& problem, const solvers::Solution&) override {
     smooth.push_back(problem);
   }
-  void solved(const solvers::RegistrationProblem& problem, const solvers::RegistrationSolution&,
-              double) override {
+  void solved(const solvers::RegistrationProblem& problem,
+              const solvers::RegistrationSolution&) override {
     registration.push_back({{problem.pairs.begin(), problem.pairs.end()}, problem.loss});
   }
-  void solved(const solvers::MatchingProblem& problem, const solvers::MatchingSolution&,
-              double) override {
+  void solved(const solvers::MatchingProblem& problem, const solvers::MatchingSolution&) override {
     matching.push_back({{problem.points.begin(), problem.points.end()},
                         {problem.slots.begin(), problem.slots.end()},
                         problem.ownship_weight});
@@ -141,9 +183,9 @@ void SolverComparison::run(const Corpus& corpus) {
          .waypoint = experiment.waypoint.value_or(Eigen::Vector2d::Zero())},
         experiment.plan, solving);
   }
-  entries_->smooth.meet(problems.smooth);
-  entries_->registration.meet(problems.registration);
-  entries_->matching.meet(problems.matching);
+  entries_->smooth.meet<solvers::Problem>(problems.smooth);
+  entries_->registration.meet<solvers::RegistrationProblem>(problems.registration);
+  entries_->matching.meet<solvers::MatchingProblem>(problems.matching);
 }
 
 std::vector<const ContenderFamily*> SolverComparison::families() const {

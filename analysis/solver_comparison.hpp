@@ -1,14 +1,24 @@
 #pragma once
 
+#include <Eigen/Core>
 #include <memory>
 #include <string>
 #include <vector>
 
-#include "shoal/analysis/answer.hpp"
 #include "shoal/analysis/corpus.hpp"
 #include "shoal/analysis/tables/table.hpp"
+#include "shoal/solvers/answer.hpp"
 
 namespace shoal::analysis {
+
+/// A solver's answer to a problem of its family, and where it puts things.
+struct SolverAnswer : solvers::Answer {
+  std::string refusal;    ///< why the solver does not take the problem, if it does not
+  Eigen::VectorXd place;  ///< m: answers are as far apart as these
+  double seconds = 0.0;
+
+  bool solved() const { return status == solvers::Status::converged; }
+};
 
 struct ComparisonSettings {
   std::vector<std::string> solvers;

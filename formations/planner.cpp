@@ -78,7 +78,8 @@ const Target& Planner::plan(double time_s, const OwnState& own) {
                            .own = own,
                            .obstacles = obstacles_,
                            .waypoint = waypoint_.value_or(Eigen::Vector2d::Zero())};
-  target_ = behaviour_->step(seen, *plan_, Solving(behaviour_memory_.get(), solve_observers_));
+  target_ =
+      behaviour_->step(seen, *plan_, Solving(behaviour_memory_.get(), solve_observers_, wants_));
   for (PlanObserver* observer : observers_) observer->planned(seen, target_);
   last_plan_s_ = time_s;
   target_position_ = own.position + target_.position;

@@ -29,7 +29,10 @@ struct PlannerParts {
 class PlanObserver : public solvers::SolveObserver {
  public:
   /// `seen` is valid during the call only.
-  virtual void planned(const Neighbourhood& seen, const Target& target) = 0;
+  virtual void planned(const Neighbourhood& seen, const Target& target) {
+    (void)seen;
+    (void)target;
+  }
 };
 
 /// The formation planner of one vehicle: pings in, targets and commands out.
@@ -74,6 +77,7 @@ class Planner {
   void observe(PlanObserver& observer) {
     observers_.push_back(&observer);
     solve_observers_.push_back(&observer);
+    wants_ = Solving::wants_of(solve_observers_);
   }
 
   /// The last target, relative to where the vehicle is now. Before the first plan(): zero.
@@ -104,6 +108,7 @@ class Planner {
   std::optional<Eigen::Vector2d> waypoint_;
   std::vector<PlanObserver*> observers_;
   std::vector<solvers::SolveObserver*> solve_observers_;  // the same
+  Solving::Wants wants_;
   double last_ping_s_ = -std::numeric_limits<double>::infinity();
   double last_plan_s_ = -std::numeric_limits<double>::infinity();
   Target target_ = Target::hold(Reason::no_neighbour);

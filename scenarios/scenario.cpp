@@ -29,6 +29,8 @@ void TrialOptions::declare(Options<TrialOptions>& o) {
   o.number("tick_s", &T::tick_s, "s", in(1e-3, 10),
            "the instants at which vehicles listen, plan and are guided; the author's helm: 4 Hz");
   o.text("start", &T::start, "UTC of mission start, for the time axis of run.nc");
+  o.flag("time_solves", &T::time_solves,
+         "measure the time that solvers take: solve_time_s, which no seed makes again");
 }
 
 void SwarmOptions::declare(Options<SwarmOptions>& o) {
@@ -257,8 +259,8 @@ Scenario read_scenario(const Setting& root) {
   }
   TomlFiles files;
   const Setting settings = with_inherited(root, files).settings;
-  require_known_names(settings);
   require_no_moved_keys(settings);
+  require_known_names(settings);
   Scenario scenario;
   read(scenario, settings, "");
   CrossChecks(scenario, settings).run();

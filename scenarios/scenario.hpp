@@ -27,6 +27,7 @@ struct TrialOptions {
   double record_every_s = 5.0;
   double tick_s = 0.25;
   std::string start = "2000-01-01T00:00:00Z";
+  bool time_solves = false;
 
   static void declare(Options<TrialOptions>& o);
 };

@@ -7,39 +7,18 @@
 #include <string>
 
 #include "shoal/core/registry.hpp"
+#include "shoal/solvers/answer.hpp"
 #include "shoal/solvers/problem.hpp"
 
 namespace shoal::solvers {
 
-/// How a solve ended, decided by our own check of the point and not by the backend's word.
-enum class Status : std::uint8_t {
-  converged,  ///< a local minimum: see is_local_minimum() in smooth/minimum.hpp
-  target_reached,
-  budget,               ///< the evaluations ran out
-  stalled_at_roundoff,  ///< the backend finds nothing lower, but the check finds no minimum
-  infeasible,           ///< no point was found that keeps to the constraints
-  diverged,             ///< no finite cost, or stopped by one that is not finite
-  bad_input,            ///< the problem cannot be posed like this (NaN start, crossed bounds)
-  callback_failed,      ///< the objective threw; the exception is rethrown
-};
-std::string_view name_of(Status status);
-
-struct Solution {
+struct Solution : Answer {
   Problem::Vector x;  ///< NaN until set
-  double cost = std::numeric_limits<double>::quiet_NaN();
-  Status status = Status::bad_input;
   int backend_code = 0;
   const char* backend_says = "";  ///< the backend's own sentence
   double violation = 0.0;         ///< of bounds and constraints, recomputed by us
-  int evaluations = 0;
-  int distinct_minima = 0;  ///< that a search from many starts came across; 0: did not look
+  int distinct_minima = 0;        ///< that a search from many starts came across; 0: did not look
   double seconds = 0.0;
-
-  /// True if x may be acted upon: finite, inside the bounds, and not worse than the start.
-  bool usable() const {
-    return status == Status::converged || status == Status::target_reached ||
-           status == Status::budget || status == Status::stalled_at_roundoff;
-  }
 };
 
 /// Minimises a smooth problem from its start.

@@ -27,7 +27,7 @@ class Rotation final : public Measure {
                        {world.swarm().x_m[i], world.swarm().y_m[i]}, 1.0);
     }
     const solvers::RegistrationSolution fit = registration.solve();
-    if (fit.status != solvers::RegistrationStatus::fitted) return;
+    if (fit.status != solvers::Status::converged) return;
     const double angle = fit.T_to_from.angle();
     angle_ = angle_ ? *angle_ + wrapped(angle - *angle_) : angle;
   }

@@ -6,13 +6,11 @@ namespace {
 /// Of a matching problem, the size of the search that Rypkema 2015, Alg. 8, makes: every slot is
 /// tried as seed, in every rotation, with a matrix of the distances of all points seen.
 struct SearchSize final : solvers::SolveObserver {
+  using SolveObserver::solved;
   std::optional<double> assignments, distances;
 
-  void solved(const solvers::Problem&, const solvers::Solution&, double) override {}
-  void solved(const solvers::RegistrationProblem&, const solvers::RegistrationSolution&,
-              double) override {}
-  void solved(const solvers::MatchingProblem& problem, const solvers::MatchingSolution& answer,
-              double) override {
+  void solved(const solvers::MatchingProblem& problem,
+              const solvers::MatchingSolution& answer) override {
     if (answer.candidates == 0) return;
     const auto points = static_cast<double>(problem.points.size());
     assignments = static_cast<double>(answer.candidates);

@@ -137,13 +137,10 @@ std::vector<HeldProblem> posed(const std::string& kind, const py::dict& options,
   struct Gathered final : solvers::SolveObserver {
     std::vector<HeldProblem> problems;
     std::shared_ptr<const void> owner;
-    void solved(const Problem& problem, const Solution&, double) override {
+    using SolveObserver::solved;
+    void solved(const Problem& problem, const Solution&) override {
       problems.push_back({problem, owner});
     }
-    void solved(const solvers::RegistrationProblem&, const solvers::RegistrationSolution&,
-                double) override {}
-    void solved(const solvers::MatchingProblem&, const solvers::MatchingSolution&,
-                double) override {}
   };
   Gathered gathered;
   gathered.owner = behaviour;

@@ -51,7 +51,7 @@ class AssignmentRegistration final : public Behaviour {
     thread_local std::vector<solvers::PointPair> pairs;
     pair_up(points, match, plan, pairs);
     const auto fit = solving.solve(*registration_, solvers::RegistrationProblem{pairs});
-    if (fit.status != solvers::RegistrationStatus::fitted) return Target::hold(Reason::degenerate);
+    if (fit.status != solvers::Status::converged) return Target::hold(Reason::degenerate);
     return Target::at_slot(fit.T_to_from, own_slot, match.cost);
   }
 

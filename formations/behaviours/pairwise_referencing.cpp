@@ -109,22 +109,21 @@ class PairwiseReferencing final : public Behaviour {
     const Heard heard = visit_places(
         seen, plan, [&](const Vector2d& place, double weight) { sum += weight * place; });
     if (const auto why = nothing_to_go_by(heard)) return Target::hold(*why);
-    if (solving.observed()) show_mean(seen, plan, solving);
+    if (heard.weight > 0.0) solving.closed_form([&] { return mean_of_problem(seen, plan); });
     const bool by_weights = options_.normalisation == Normalisation::weights;
     return Target::at(sum / (by_weights ? heard.weight : heard.placed), 0.0);
   }
 
   /// The least squares that the mean solves; the shrinking by normalisation = "count" comes after.
-  void show_mean(const Neighbourhood& seen, const Plan& plan, const Solving& solving) const {
-    const auto posed = problem_of(seen, plan);
-    const auto* problem = std::get_if<solvers::Problem>(&posed);
-    if (!problem) return;
-    solving.answer(*problem, [&] {
-      return solvers::Solution{.x = problem->start,
-                               .cost = problem->evaluate(problem->start.data()),
-                               .status = solvers::Status::converged,
-                               .backend_says = "closed form"};
-    });
+  std::pair<solvers::Problem, solvers::Solution> mean_of_problem(const Neighbourhood& seen,
+                                                                 const Plan& plan) const {
+    const auto problem = std::get<solvers::Problem>(problem_of(seen, plan));
+    solvers::Solution mean;
+    mean.x = problem.start;
+    mean.cost = problem.evaluate(problem.start.data());
+    mean.status = solvers::Status::converged;
+    mean.backend_says = "closed form";
+    return {problem, mean};
   }
 
   Target step_to_least_cost(const Neighbourhood& seen, const Plan& plan,

@@ -48,17 +48,11 @@ class RigidRegistration final : public Behaviour {
 
     const solvers::RegistrationSolution fit =
         solving.solve(*registration_, solvers::RegistrationProblem{pairs, loss_.get()});
-    switch (fit.status) {
-      case solvers::RegistrationStatus::fitted:
-      case solvers::RegistrationStatus::not_converged:
-        return Target::at_slot(fit.T_to_from, plan.slot(seen.own_slot), fit.cost);
-      case solvers::RegistrationStatus::diverged:
-        return Target::hold(Reason::solver_failed);
-      case solvers::RegistrationStatus::translation_only:
-      case solvers::RegistrationStatus::bad_input:
-        break;
+    if (fit.status == solvers::Status::undetermined || fit.status == solvers::Status::bad_input) {
+      return Target::hold(Reason::degenerate);
     }
-    return Target::hold(Reason::degenerate);
+    if (!fit.usable()) return Target::hold(Reason::solver_failed);
+    return Target::at_slot(fit.T_to_from, plan.slot(seen.own_slot), fit.cost);
   }
 
  private:

@@ -3,12 +3,14 @@
 #include <Eigen/Core>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <span>
-#include <string_view>
+#include <string>
 
 #include "shoal/core/memory.hpp"
 #include "shoal/core/registry.hpp"
 #include "shoal/core/transform.hpp"
+#include "shoal/solvers/answer.hpp"
 
 namespace shoal::solvers {
 
@@ -27,18 +29,13 @@ struct MatchingProblem {
   double ownship_weight = 1.0;  ///< of points[0]; the others weigh 1
 };
 
-enum class MatchingStatus : std::uint8_t { matched, bad_input };
-
-struct MatchingSolution {
+/// Its cost is the sum of matched distances before refinement, m.
+struct MatchingSolution : Answer {
   std::span<const int> slot_of_point;  ///< valid until the next solve of this thread
-  double cost = 0.0;                   ///< sum of matched distances before refinement, m
   double rotation = 0.0;               ///< of the points onto the plan, rad
-  MatchingStatus status = MatchingStatus::bad_input;
   /// Pairs of a subset of slots and a rotation among which the answer is the best: the assignments
   /// that an exhaustive search would solve; 0 if it is not a search of that kind.
   std::int64_t candidates = 0;
-
-  bool usable() const { return status == MatchingStatus::matched; }
 };
 
 /// Stateless and thread-safe. What it remembers of a caller makes the next answer quicker, and
@@ -52,6 +49,9 @@ class Matcher {
   /// `memory`: what new_memory() made for the caller, or nullptr.
   virtual MatchingSolution solve(const MatchingProblem& problem, Memory* memory) const = 0;
   virtual std::unique_ptr<Memory> new_memory() const { return nullptr; }
+
+  /// Why this solver cannot take the problem, or nothing if it can.
+  virtual std::optional<std::string> refuses(const MatchingProblem&) const { return std::nullopt; }
 
   MatchingSolution solve(const MatchingProblem& problem) const { return solve(problem, nullptr); }
 };

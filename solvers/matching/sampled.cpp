@@ -250,11 +250,13 @@ class Sampled final : public Matcher {
     for (const int column : work.search.slot_of_point()) {
       work.slot_of_point.push_back(subset.slot[static_cast<std::size_t>(column)]);
     }
-    return {.slot_of_point = work.slot_of_point,
-            .cost = work.search.cost(),
-            .rotation = wrapped(turns_.angle(best.turn)),
-            .status = MatchingStatus::matched,
-            .candidates = static_cast<std::int64_t>(slots) * turns_.count()};
+    MatchingSolution solution;
+    solution.status = Status::converged;
+    solution.cost = work.search.cost();
+    solution.slot_of_point = work.slot_of_point;
+    solution.rotation = wrapped(turns_.angle(best.turn));
+    solution.candidates = static_cast<std::int64_t>(slots) * turns_.count();
+    return solution;
   }
 
   SampledOptions options_;

@@ -221,11 +221,10 @@ Descended lowest(const Solver& solver, const Centred& points, const Transform2& 
   return best;
 }
 
-RegistrationStatus status_of(const Solution& solution, bool turned) {
-  if (solution.status == Status::bad_input) return RegistrationStatus::bad_input;
-  if (!solution.usable()) return RegistrationStatus::diverged;
-  if (!minimum(solution)) return RegistrationStatus::not_converged;
-  return turned ? RegistrationStatus::fitted : RegistrationStatus::translation_only;
+Status status_of(const Solution& solution, bool turned) {
+  if (!solution.usable() && solution.status != Status::bad_input) return Status::diverged;
+  if (!minimum(solution)) return solution.status;
+  return turned ? Status::converged : Status::undetermined;
 }
 
 }  // namespace
@@ -240,7 +239,7 @@ RegistrationSolution RegistrationByDescent::solve(const RegistrationProblem& pro
 
   // Least squares may leave the rotation open also where points are distinct (a mirrored square).
   bool turns = points.from_distinct && points.to_distinct && points.radius > 0.0;
-  if (problem.is_square()) turns = of_squares.status == RegistrationStatus::fitted;
+  if (problem.is_square()) turns = of_squares.status == Status::converged;
   Descended end;
   int evaluations = 0;
   if (turns) {

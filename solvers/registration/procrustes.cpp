@@ -6,22 +6,6 @@
 
 namespace shoal::solvers {
 
-std::string_view name_of(RegistrationStatus status) {
-  switch (status) {
-    case RegistrationStatus::fitted:
-      return "fitted";
-    case RegistrationStatus::translation_only:
-      return "translation_only";
-    case RegistrationStatus::not_converged:
-      return "not_converged";
-    case RegistrationStatus::diverged:
-      return "diverged";
-    case RegistrationStatus::bad_input:
-      return "bad_input";
-  }
-  return "unknown";
-}
-
 RegistrationSolution Procrustes::solve() const {
   RegistrationSolution solution;
   if (bad_ || !any_) return solution;
@@ -42,12 +26,12 @@ RegistrationSolution Procrustes::solve() const {
   constexpr double rounding = 1e-12;
   if (squared > rounding * rounding * scale_squared) {
     const double length = std::sqrt(squared);
-    solution.status = RegistrationStatus::fitted;
+    solution.status = Status::converged;
     solution.T_to_from.cosine = dot / length;
     solution.T_to_from.sine = cross / length;
     solution.cost = std::max(0.0, from_spread + to_spread - 2.0 * length);
   } else {
-    solution.status = RegistrationStatus::translation_only;
+    solution.status = Status::undetermined;
     solution.T_to_from.cosine = 1.0;
     solution.T_to_from.sine = 0.0;
     solution.cost = std::max(0.0, from_spread + to_spread - 2.0 * dot);

@@ -6,10 +6,10 @@
 #include <optional>
 #include <span>
 #include <string>
-#include <string_view>
 
 #include "shoal/core/registry.hpp"
 #include "shoal/core/transform.hpp"
+#include "shoal/solvers/answer.hpp"
 #include "shoal/solvers/loss.hpp"
 
 namespace shoal::solvers {
@@ -30,29 +30,13 @@ struct RegistrationProblem {
   bool is_square() const { return !loss || loss->is_square(); }
 };
 
-enum class RegistrationStatus : std::uint8_t {
-  fitted,            ///< to a minimum: the least of all with the square, a local one otherwise
-  translation_only,  ///< the points do not fix the rotation (fewer than two distinct ones)
-  not_converged,     ///< the best motion found, but no minimum: more evaluations might help
-  diverged,          ///< no motion of finite cost was found
-  bad_input,         ///< no pairs, no positive or a negative weight, not finite, or refused
-};
-std::string_view name_of(RegistrationStatus status);
-
-struct RegistrationSolution {
+/// Its cost is the weighted sum of losses, m^2. `undetermined`: the points do not fix the rotation
+/// (fewer than two distinct ones), which is then the identity.
+struct RegistrationSolution : Answer {
   static constexpr double unset = std::numeric_limits<double>::quiet_NaN();
 
-  /// Takes `from` points to `to` points; NaN until set, the identity rotation if unfixed.
+  /// Takes `from` points to `to` points; NaN until set.
   Transform2 T_to_from{unset, unset, Eigen::Vector2d(unset, unset)};
-  double cost = unset;  ///< weighted sum of losses, m^2
-  RegistrationStatus status = RegistrationStatus::bad_input;
-  int evaluations = 0;  ///< of the cost by a descent; 0 for closed forms
-
-  /// True if the motion may be acted upon.
-  bool usable() const {
-    return status == RegistrationStatus::fitted || status == RegistrationStatus::translation_only ||
-           status == RegistrationStatus::not_converged;
-  }
 };
 
 /// Finds the best rigid motion of known pairs.

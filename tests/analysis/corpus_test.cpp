@@ -173,7 +173,7 @@ TEST_F(Corpora, AreSolvedByTheSolversOfTheirFamilies) {
       EXPECT_EQ(contender.answers.size(), family->contenders.front().answers.size());
       if (contender.name == "nlopt.slsqp") continue;  // it stops early in flat valleys
       for (const SolverAnswer& answer : contender.answers)
-        EXPECT_TRUE(answer.solved) << answer.status;
+        EXPECT_TRUE(answer.solved()) << name_of(answer.status);
     }
   }
   const std::string table = print(comparison_table(comparison, 0.01), TableFormat::csv);

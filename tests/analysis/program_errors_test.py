@@ -116,7 +116,7 @@ BAD_SCENARIOS = [
     ("more ticks than can be counted", "[trial]\nduration_s = 1e300\n", {},
      ["s.toml:2: ", "trial.duration_s is 1e+300 s; it must be at most"]),
     ("more to record than can be kept", "[trial]\nduration_s = 1e9\nrecord_every_s = 0.25\n", {},
-     ["trial.record_every_s is 0.25 s, and trial.duration_s 1e+09 s: that is 9.6e+11 numbers"]),
+     ["trial.record_every_s is 0.25 s, and trial.duration_s 1e+09 s: that is 1.2e+12 numbers"]),
     ("more to measure than can be kept", "[trial]\nduration_s = 1e10\nrecord_every_s = 0\n", {},
      ["quality.every_s is 30 s, and trial.duration_s 1e+10 s"]),
     ("an endless pause", SMALL + "[ping]\nperiod_s = 1e300\n", {},

@@ -156,6 +156,7 @@ shoal.run("construction_square", {"trial.duration_s": 1e8, "trial.record_every_s
         with self.assertWarnsRegex(RuntimeWarning, "batch=True"), self.assertRaises(StopIteration):
             shoal.run("construction_hexagonal",
                       {"behaviour.kind": "attraction_repulsion", "trial.duration_s": 1e8,
+                       "trial.record_every_s": 0,
                        "behaviour.attraction_repulsion.potential": law}, progress=Until(8))
 
     def test_values_that_no_option_takes(self):
@@ -578,7 +579,7 @@ class Catalogue(Desk):
             settings = pathlib.Path(work, "mypy.ini")
             settings.write_text("[mypy]\nignore_missing_imports = True\n")
             allowed = pathlib.Path(work, "allowed")  # pybind11's classes have a class of their own
-            allowed.write_text(r"shoal\._shoal\.\w+" "\n" r"shoal\._shoal\.(Solution|Table)\.__init__"
+            allowed.write_text(r"shoal\._shoal\.\w+" "\n" r"shoal\._shoal\.(Command|Solution|Table)\.__init__"
                                "\n")
             env = {"MYPYPATH": str(package), "PYTHONPATH": str(package), "PATH": "/usr/bin:/bin",
                    "HOME": work}

@@ -219,7 +219,7 @@ TEST(GridStart, FillsRowsFromTheSouthWest) {
 
 TEST(Waypoints, WantTargetsThatAreRenewedByTheClock) {
   EXPECT_NE(complaint("potentials_channel", {"planner.update=ping"})
-                .find("leads vehicles that hear nobody, too; set planner.update = \"tick\""),
+                .find("leads vehicles that hear no other, too; set planner.update = \"tick\""),
             std::string::npos);
 }
 

@@ -55,7 +55,8 @@ void declared(const Schema& schema, const Setting& written, const std::string& p
 /// Whether an option says which experiment is run, not how the thesis' vehicles work.
 bool makes_the_scenario(const std::string& key) {
   static const Keys names{"trial.duration_s", "trial.seed",       "trial.record_every_s",
-                          "trial.start",      "swarm.start.kind", "swarm.start.box.side_m"};
+                          "trial.start",      "swarm.start.kind", "swarm.start.box.side_m",
+                          "trial.time_solves"};
   return names.contains(key);
 }
 

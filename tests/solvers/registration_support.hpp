@@ -59,8 +59,7 @@ inline double apart(const Transform2& a, const Transform2& b, const Pairs& pairs
   return most;
 }
 
-inline ::testing::AssertionResult is(const RegistrationSolution& solution,
-                                     RegistrationStatus expected) {
+inline ::testing::AssertionResult is(const RegistrationSolution& solution, Status expected) {
   if (solution.status == expected) return ::testing::AssertionSuccess();
   return ::testing::AssertionFailure()
          << name_of(solution.status) << " after " << solution.evaluations;

@@ -94,7 +94,7 @@ test("every layer can be shown and hidden", async () => {
   for (const [name, wanted] of [["redsea", ["current", "plan", "trails", "ends", "targets", "drift",
                                             "range", "vehicles"]],
                                 ["clutter", ["obstacles", "plan", "trails", "ends", "waypoint",
-                                             "targets", "drift", "range", "vehicles"]]]) {
+                                             "targets", "range", "vehicles"]]]) {
     const page = await opened(name);
     await page.evaluate(() => {
       const {player} = window.shoal;
