@@ -30,22 +30,30 @@ void AssignmentSolver::reset(int rows, int columns) {
 }
 
 AssignmentStatus AssignmentSolver::solve(std::span<const double> costs, int rows, int columns,
-                                         double bound) {
+                                         double bound, std::int64_t most_rows) {
   if (rows < 0 || rows > columns) return AssignmentStatus::bad_input;
   reset(rows, columns);
-  return solve_similar(costs, bound);
+  return solve_similar(costs, bound, most_rows);
 }
 
 // The matrix is thought of as square: columns - rows further rows of zeros take what is left. They
 // matter only when the prices come from another matrix.
-AssignmentStatus AssignmentSolver::solve_similar(std::span<const double> costs, double bound) {
+AssignmentStatus AssignmentSolver::solve_similar(std::span<const double> costs, double bound,
+                                                 std::int64_t most_rows) {
   if (costs.size() != at(rows_) * at(columns_)) return AssignmentStatus::bad_input;
   costs_ = costs.data();
   if (const auto status = take_row_minima(); status != AssignmentStatus::optimal) return status;
   if (bound_below_ >= bound) return AssignmentStatus::above_bound;
 
   const double spare_share = -highest_price();
-  for (const int i : pending_) {
+  const std::int64_t begin = rows_scanned_;
+  for (std::size_t k = 0; k < pending_.size(); ++k) {
+    const int i = pending_[k];
+    if (rows_scanned_ - begin >= most_rows) {
+      if (!take_free_columns(std::span(pending_).subspan(k))) return AssignmentStatus::infeasible;
+      cost_ = sum_of_costs();
+      return cost_ < bound ? AssignmentStatus::budget : AssignmentStatus::above_bound;
+    }
     switch (augment(i, bound_below_ - share_[at(i)], bound)) {
       case Path::found:
         break;
@@ -56,9 +64,30 @@ AssignmentStatus AssignmentSolver::solve_similar(std::span<const double> costs, 
     }
   }
   if (!place_spare_rows(spare_share, bound)) return AssignmentStatus::above_bound;
-  cost_ = 0.0;
-  for (int i = 0; i < rows_; ++i) cost_ += row(i)[column_of_row_[at(i)]];
+  cost_ = sum_of_costs();
   return cost_ < bound ? AssignmentStatus::optimal : AssignmentStatus::above_bound;
+}
+
+double AssignmentSolver::sum_of_costs() const {
+  double sum = 0.0;
+  for (int i = 0; i < rows_; ++i) sum += row(i)[column_of_row_[at(i)]];
+  return sum;
+}
+
+// False if a row is left with forbidden pairs only.
+bool AssignmentSolver::take_free_columns(std::span<const int> rows) {
+  for (const int i : rows) {
+    ++rows_scanned_;
+    int cheapest = -1;
+    for (int j = 0; j < columns_; ++j) {
+      if (row_of_column_[at(j)] >= 0) continue;
+      if (cheapest < 0 || row(i)[j] < row(i)[cheapest]) cheapest = j;
+    }
+    if (!(row(i)[cheapest] < infinity)) return false;
+    row_of_column_[at(cheapest)] = i;
+    column_of_row_[at(i)] = cheapest;
+  }
+  return true;
 }
 
 // Columns left over must be the dearest, else an assignment that takes them instead is cheaper.

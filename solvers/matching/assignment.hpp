@@ -10,6 +10,7 @@ namespace shoal::solvers {
 
 enum class AssignmentStatus : std::uint8_t {
   optimal,
+  budget,       ///< complete, but perhaps not the cheapest: the rows to be scanned ran out
   above_bound,  ///< abandoned: every assignment costs at least the bound given
   infeasible,   ///< the forbidden (infinite) entries leave some row without a column
   bad_input,    ///< NaN or -infinity in the costs, more rows than columns, or a wrong size
@@ -25,14 +26,17 @@ enum class AssignmentStatus : std::uint8_t {
 class AssignmentSolver {
  public:
   static constexpr double unbounded = std::numeric_limits<double>::infinity();
+  static constexpr std::int64_t any_number = std::numeric_limits<std::int64_t>::max();
 
-  /// `costs` is row-major. On `optimal`, column_of() and cost() hold the answer.
+  /// `costs` is row-major. On `optimal` and `budget`, column_of() and cost() hold the answer. When
+  /// `most_rows` were scanned, the rows that are left take the cheapest of the free columns.
   AssignmentStatus solve(std::span<const double> costs, int rows, int columns,
-                         double bound = unbounded);
+                         double bound = unbounded, std::int64_t most_rows = any_number);
 
   /// Like solve() for a matrix of the same shape as the last, whose prices it starts from: fast
   /// where the costs changed little. Of several optimal assignments it may find another one.
-  AssignmentStatus solve_similar(std::span<const double> costs, double bound = unbounded);
+  AssignmentStatus solve_similar(std::span<const double> costs, double bound = unbounded,
+                                 std::int64_t most_rows = any_number);
 
   /// Makes the next solve_similar() start from nothing.
   void reset(int rows, int columns);
@@ -60,6 +64,8 @@ class AssignmentSolver {
   enum class Path : std::uint8_t { found, above_bound, none };
 
   AssignmentStatus take_row_minima();
+  bool take_free_columns(std::span<const int> rows);
+  double sum_of_costs() const;
   Path augment(int row, double rest, double bound);
   bool place_spare_rows(double share, double bound);
   void flip_path(int column, double distance);

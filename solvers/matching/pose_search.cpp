@@ -11,7 +11,8 @@ namespace shoal::solvers {
 namespace {
 
 constexpr double same_sum_m = 1e-9;
-constexpr std::int64_t lookup_work = 4;  // takes as long as so many distances
+constexpr std::int64_t most_assignment_work = 20'000'000;  // distances
+constexpr std::int64_t lookup_work = 4;                    // takes as long as so many distances
 // An assignment tells little about a box that leaves the angle so open.
 constexpr double widest_spread = 0.5;
 // What the nearest slots are ahead of the best, in disc radii, so that a few splits do without
@@ -89,7 +90,9 @@ void PoseSearch::assign() {
         ((slot_x_ - p.x()).square() + (slot_y_ - p.y()).square()).sqrt();
     row += columns;
   }
-  assignment_.solve(costs_, static_cast<int>(discs_.size()), static_cast<int>(columns));
+  // In a large swarm that is far from formed, one optimal assignment would take minutes.
+  assignment_.solve(costs_, static_cast<int>(discs_.size()), static_cast<int>(columns),
+                    AssignmentSolver::unbounded, most_assignment_work / columns);
 }
 
 // Where it is not known yet, its least sum near this pose is sought, which may be the best so far;

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <numeric>
 #include <random>
+#include <set>
 
 #include "shoal/solvers/matching/points.hpp"
 
@@ -111,6 +112,34 @@ TEST(Assignment, AbandonsExactlyThoseThatCannotBeatTheBound) {
     RC_ASSERT(solver.solve(m.costs, m.rows, m.columns, least - 1e-6) ==
               AssignmentStatus::above_bound);
   }));
+}
+
+TEST(Assignment, IsCompleteWhereTheRowsToBeScannedRunOut) {
+  std::mt19937 generator(8);
+  std::uniform_real_distribution<double> cost(0.0, 1.0);
+  AssignmentSolver solver;
+  for (int trial = 0; trial < 20; ++trial) {
+    const int rows = 30, columns = 30 + trial % 3;
+    std::vector<double> costs;
+    for (int k = 0; k < rows * columns; ++k) costs.push_back(cost(generator));
+    ASSERT_EQ(solver.solve(costs, rows, columns), AssignmentStatus::optimal);
+    const double least = solver.cost();
+    double before = 0.0;
+    for (const std::int64_t most_rows : {0, 5, 40, 100'000}) {
+      const auto status =
+          solver.solve(costs, rows, columns, AssignmentSolver::unbounded, most_rows);
+      EXPECT_TRUE(status == AssignmentStatus::budget || most_rows > 0);
+      EXPECT_TRUE(status == AssignmentStatus::optimal || most_rows < 100'000);
+      EXPECT_GE(solver.cost(), least - 1e-12);
+      const std::set<int> taken(solver.column_of().begin(), solver.column_of().end());
+      EXPECT_EQ(taken.size(), static_cast<std::size_t>(rows)) << "no column is taken twice";
+      before = solver.cost();
+    }
+    EXPECT_EQ(before, least);
+  }
+  const double none = AssignmentSolver::unbounded;
+  const std::vector<double> forbidden{1.0, none, 2.0, none};
+  EXPECT_EQ(solver.solve(forbidden, 2, 2, none, 0), AssignmentStatus::infeasible);
 }
 
 TEST(Assignment, PricesBoundEveryOtherMatrixFromBelow) {
