@@ -8,9 +8,12 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <chrono>
 #include <csignal>
+#include <ctime>
 #include <fstream>
 #include <new>
+#include <thread>
 
 #include "shoal/core/error.hpp"
 
@@ -63,6 +66,60 @@ void be_expendable(std::uintmax_t bytes) {
   limit(RLIMIT_AS, address_space() + 512 * megabyte + 2000 * bytes);
 }
 
+double cpu_s(clockid_t clock) {
+  timespec used{};
+  ::clock_gettime(clock, &used);
+  return static_cast<double>(used.tv_sec) + 1e-9 * static_cast<double>(used.tv_nsec);
+}
+
+/// Waits for a child. One that does nothing for seconds waits for a lock that another thread held
+/// when it was forked (of a memory allocator, say): that is no fault of the file's, and it is
+/// ended. False then.
+bool ended_by_itself(pid_t child, int& status) {
+  using Clock = std::chrono::steady_clock;
+  constexpr std::chrono::seconds patience(5);
+  clockid_t clock{};
+  const bool timed = ::clock_getcpuclockid(child, &clock) == 0;
+  double used_s = -1.0;
+  Clock::time_point since = Clock::now();
+  for (std::chrono::milliseconds pause(1);;) {
+    const pid_t done = ::waitpid(child, &status, WNOHANG);
+    if (done == child) return true;
+    if (done < 0 && errno != EINTR) {
+      status = 0;  // it goes elsewhere
+      return true;
+    }
+    std::this_thread::sleep_for(pause);
+    pause = std::min(2 * pause, std::chrono::milliseconds(20));
+    const double now_s = timed ? cpu_s(clock) : 0.0;
+    if (now_s != used_s) {
+      used_s = now_s;
+      since = Clock::now();
+    } else if (Clock::now() - since > patience) {
+      ::kill(child, SIGKILL);
+      while (::waitpid(child, &status, 0) < 0 && errno == EINTR) {
+      }
+      return false;
+    }
+  }
+}
+
+/// A child that reads, and ends; negative if there is no process to spare.
+pid_t forked(std::uintmax_t bytes, const std::function<void()>& read) {
+  std::unique_lock lock(netcdf_mutex());  // the child must not begin in the middle of a reading
+  const pid_t child = ::fork();
+  if (child != 0) return child;
+  be_expendable(bytes);
+  lock.unlock();
+  try {
+    read();
+  } catch (const std::bad_alloc&) {
+    ::_exit(out_of_memory);
+  } catch (...) {  // NOLINT(bugprone-empty-catch): the reading that follows throws it again
+  }
+  ::_exit(0);
+}
+
 }  // namespace
 
 NetcdfGuard::NetcdfGuard() : lock_(netcdf_mutex()) {
@@ -72,28 +129,16 @@ NetcdfGuard::NetcdfGuard() : lock_(netcdf_mutex()) {
 
 void rehearse_netcdf(const std::string& name, std::uintmax_t bytes,
                      const std::function<void()>& read) {
-  std::unique_lock lock(netcdf_mutex());  // the child must not begin in the middle of a reading
-  const pid_t child = ::fork();
-  if (child == 0) {
-    be_expendable(bytes);
-    lock.unlock();
-    try {
-      read();
-    } catch (const std::bad_alloc&) {
-      ::_exit(out_of_memory);
-    } catch (...) {  // NOLINT(bugprone-empty-catch): the reading that follows throws it again
-    }
-    ::_exit(0);
+  constexpr int tries = 3;
+  for (int i = 0; i < tries; ++i) {
+    const pid_t child = forked(bytes, read);
+    if (child < 0) return;  // read without
+    int status = 0;
+    if (!ended_by_itself(child, status)) continue;
+    if (WIFEXITED(status) && WEXITSTATUS(status) == 0) return;
+    throw InputError(name + ": is damaged: " + fault_of(status) +
+                     "; get the file again, or write it anew");
   }
-  lock.unlock();
-  if (child < 0) return;  // no process to spare: read without
-  int status = 0;
-  while (::waitpid(child, &status, 0) < 0) {
-    if (errno != EINTR) return;  // its status goes elsewhere
-  }
-  if (WIFEXITED(status) && WEXITSTATUS(status) == 0) return;
-  throw InputError(name + ": is damaged: " + fault_of(status) +
-                   "; get the file again, or write it anew");
 }
 
 }  // namespace shoal::scenarios

@@ -21,8 +21,8 @@ class NetcdfGuard {
 /// any memory on a damaged file, and no check of ours comes before that.
 ///
 /// `bytes` is the size of the file, which sets how much time and memory it may take. Throws
-/// InputError if the child crashes or exceeds them. What else `read` throws is left to the reading
-/// that comes after. No NetcdfGuard may be held.
+/// InputError if the child crashes or exceeds them; a child that is blocked is begun again. What
+/// else `read` throws is left to the reading that comes after. No NetcdfGuard may be held.
 void rehearse_netcdf(const std::string& name, std::uintmax_t bytes,
                      const std::function<void()>& read);
 

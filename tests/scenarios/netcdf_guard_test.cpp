@@ -1,6 +1,8 @@
 #include "shoal/scenarios/netcdf_guard.hpp"
 
 #include <gtest/gtest.h>
+#include <sys/mman.h>
+#include <unistd.h>
 
 #include <csignal>
 #include <stdexcept>
@@ -39,6 +41,20 @@ TEST(NetcdfRehearsal, EndsALoop) {
   // What the kernel sends to a process that has used up its time.
   const std::string why = complaint_of_rehearsal([] { std::raise(SIGXCPU); });
   EXPECT_NE(why.find("does not come to an end"), std::string::npos) << why;
+}
+
+TEST(NetcdfRehearsal, BeginsAgainWhereAChildIsBlocked) {
+  // As by a lock that another thread held when the child was forked: the first child only.
+  void* const shared =
+      ::mmap(nullptr, sizeof(int), PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0);
+  ASSERT_NE(shared, MAP_FAILED);
+  int& children = *static_cast<int*>(shared);
+  EXPECT_EQ(complaint_of_rehearsal([&] {
+              if (++children == 1) ::pause();
+            }),
+            "");
+  EXPECT_EQ(children, 2);
+  ::munmap(shared, sizeof(int));
 }
 
 TEST(NetcdfRehearsal, RefusesMoreMemoryThanTheFileCanFill) {
