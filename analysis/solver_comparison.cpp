@@ -114,6 +114,29 @@ class Gathered final : public solvers::SolveObserver {
   std::vector<Matching> matching;
 };
 
+/// Refuses options of members that there are not, or that were not named.
+void require_of_named(const RegistryBase& registry, const Setting& table,
+                      const std::vector<std::string>& named) {
+  const std::string& family = registry.family();
+  if (table.is_table() && table.find("kind")) {
+    throw InputError(table.origin, family +
+                                       ".kind: the solvers that are compared are named by "
+                                       "--solvers; give options, as " +
+                                       family + "." + registry.names().front() + ".OPTION=VALUE");
+  }
+  ChoiceSetting given;
+  given.read(registry, table, family);
+  for (const MemberInfo& member : registry.members()) {
+    const Setting* options = given.tables.find(member.name);
+    if (!options || options->table().empty()) continue;
+    if (std::ranges::find(named, member.name) == named.end()) {
+      throw InputError(options->origin, family + "." + member.name + ": " + member.name +
+                                            " is not among the solvers; name it, or leave its "
+                                            "options out");
+    }
+  }
+}
+
 void require_known(const ComparisonSettings& settings,
                    std::initializer_list<const RegistryBase*> registries) {
   std::vector<std::string> names, families;
@@ -136,10 +159,12 @@ void require_known(const ComparisonSettings& settings,
                      suggestion(reference, settings.solvers));
   }
   for (const auto& [family, table] : settings.options.table()) {
-    if (std::ranges::find(families, family) == families.end()) {
+    const auto found = std::ranges::find(registries, family, &RegistryBase::family);
+    if (found == registries.end()) {
       throw InputError(table.origin, "there is no family of solvers \"" + family + '"' +
                                          suggestion(family, families));
     }
+    require_of_named(**found, table, settings.solvers);
   }
 }
 

@@ -67,7 +67,7 @@ Eigen::Vector2d VirtualPotential::force(const Eigen::Vector2d& place,
 }
 
 double VirtualPotentialCost::evaluate(const double* x, double* gradient, double* hessian) const {
-  const PlaneValue at = potential_->potential(origin_ + Eigen::Vector2d(x[0], x[1]), others_);
+  const PlaneValue at = potential_.potential(origin_ + Eigen::Vector2d(x[0], x[1]), others_);
   if (gradient) Eigen::Map<Eigen::Vector2d>(gradient, 2) = at.gradient;
   if (hessian) Eigen::Map<Eigen::Matrix2d>(hessian, 2, 2) = at.hessian;
   return at.value;

@@ -4,6 +4,7 @@
 #include <array>
 #include <span>
 #include <utility>
+#include <vector>
 
 #include "shoal/core/options.hpp"
 #include "shoal/formations/fields/contours.hpp"
@@ -78,12 +79,12 @@ class VirtualPotential {
 };
 
 /// The sum of all potentials as an objective of two unknowns, x and y (m), relative to an origin.
-/// Refers to the potential and to the agents, which must outlive it.
+/// A value of its own, but for the obstacles, which must outlive it.
 class VirtualPotentialCost final : public solvers::Objective {
  public:
   VirtualPotentialCost(const VirtualPotential& potential, const Eigen::Vector2d& origin,
                        std::span<const Agent> others)
-      : potential_(&potential), origin_(origin), others_(others) {}
+      : potential_(potential), origin_(origin), others_(others.begin(), others.end()) {}
 
   double evaluate(const double* x, double* gradient, double* hessian) const override;
   std::pair<Objective*, bool> copy_into(void* storage, std::size_t size) const override {
@@ -91,9 +92,9 @@ class VirtualPotentialCost final : public solvers::Objective {
   }
 
  private:
-  const VirtualPotential* potential_;
+  VirtualPotential potential_;
   Eigen::Vector2d origin_;
-  std::span<const Agent> others_;
+  std::vector<Agent> others_;
 };
 
 }  // namespace shoal::formations

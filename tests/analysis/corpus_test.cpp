@@ -180,6 +180,19 @@ TEST_F(Corpora, AreSolvedByTheSolversOfTheirFamilies) {
   EXPECT_EQ(std::ranges::count(table, '\n'), 6) << table;  // newton is in two families
 }
 
+TEST_F(Corpora, OfEveryBehaviourAreSolvedFromAFile) {
+  for (const std::string& behaviour : Registry<formations::Behaviour>::instance().names()) {
+    const Corpus corpus = recorded(scenario(behaviour));
+    if (corpus.situations.empty()) continue;  // its answer is a gradient
+    write_corpus(corpus, folder / "c.jsonl");
+    SolverComparison comparison({.solvers = {"newton", "nlopt.bobyqa", "procrustes", "sampled"},
+                                 .reference = "",
+                                 .options = {}});
+    comparison.run(read_corpus(folder / "c.jsonl"));
+    EXPECT_FALSE(comparison.families().empty()) << behaviour;
+  }
+}
+
 TEST_F(Corpora, GiveProfilesThatRiseToTheShareSolved) {
   SolverComparison comparison(
       {.solvers = {"newton", "nlopt.bobyqa", "grid"}, .reference = "", .options = {}});
@@ -189,6 +202,29 @@ TEST_F(Corpora, GiveProfilesThatRiseToTheShareSolved) {
   EXPECT_NE(profiles.find("solver,evaluations,nlopt.bobyqa,1,0\n"), std::string::npos);
   EXPECT_NE(profiles.find("solver,seconds,nlopt.bobyqa,16384,1\n"), std::string::npos);
   EXPECT_NE(profiles.find("solver,seconds,grid,16384,0\n"), std::string::npos);
+}
+
+TEST_F(Corpora, AreNotComparedWithOptionsThatNoNamedSolverHas) {
+  const auto complaint = [](const char* key, Setting value) -> std::string {
+    ComparisonSettings settings{
+        .solvers = {"newton", "procrustes"}, .reference = "", .options = {}};
+    assign(settings.options, key, std::move(value));
+    try {
+      const SolverComparison comparison(settings);
+    } catch (const InputError& error) {
+      return error.what();
+    }
+    return "";
+  };
+  const Setting three{std::int64_t{3}, {}};
+  EXPECT_EQ(complaint("solver.newton.max_evaluations", three), "");
+  EXPECT_NE(complaint("solver.newton.foo", three).find("no option \"foo\""), std::string::npos);
+  EXPECT_NE(complaint("solver.nonsense.foo", three).find("no option \"nonsense\""),
+            std::string::npos);
+  EXPECT_NE(complaint("solver.nlopt.slsqp.max_evaluations", three).find("not among the solvers"),
+            std::string::npos);
+  EXPECT_NE(complaint("solver", three).find("it takes a table"), std::string::npos);
+  EXPECT_NE(complaint("solver.kind", three).find("--solvers"), std::string::npos);
 }
 
 TEST_F(Corpora, AreNotComparedByUnknownSolversOrReferences) {

@@ -368,6 +368,21 @@ TEST(VirtualPotentialCost, LeadsSolversToAVertexOfTheCell) {
   }
 }
 
+TEST(VirtualPotentialCost, MayBeKeptWhenWhatItWasMadeOfHasGone) {
+  std::optional<solvers::Problem> kept;
+  double there = 0.0;
+  const double x[2] = {3.0, -4.0};
+  {
+    const auto potential =
+        std::make_unique<VirtualPotential>(VirtualPotentialGains{}, Vector2d(300, 0), Obstacles{});
+    auto others = std::make_unique<std::vector<Agent>>(5, Agent{{20, 35}, 0.2});
+    kept.emplace(Vector2d::Zero(), VirtualPotentialCost(*potential, {7, 9}, *others));
+    there = kept->evaluate(x);
+    std::ranges::fill(*others, Agent{{-1e3, 0}, 0.0});
+  }
+  EXPECT_EQ(kept->evaluate(x), there);
+}
+
 TEST(VirtualPotential, DoesNotAllocate) {
   const Sea sea;
   Vector2d sum = Vector2d::Zero();
