@@ -16,6 +16,9 @@ Planner::Planner(std::shared_ptr<const Plan> plan, std::shared_ptr<const Behavio
       guidance_(parts.guidance),
       obstacles_(parts.obstacles),
       waypoint_(parts.waypoint) {
+  if (waypoint_ && !waypoint_->allFinite()) {
+    throw InputError("the waypoint is not finite; give metres east and north");
+  }
   if (behaviour_->needs_waypoint() && !waypoint_) {
     throw InputError("the behaviour leads vehicles to a waypoint, and there is none; give one");
   }

@@ -47,8 +47,8 @@ class PlanObserver : public solvers::SolveObserver {
 class Planner {
  public:
   /// Throws InputError if the plan has no slot of that name, if the behaviour leads to a waypoint
-  /// and there is none, and if it gives forces and the guidance takes places, or the other way
-  /// round.
+  /// and there is none or it is not finite, and if it gives forces and the guidance takes places,
+  /// or the other way round.
   Planner(std::shared_ptr<const Plan> plan, std::shared_ptr<const Behaviour> behaviour,
           std::string_view own_name, const PlannerParts& parts = {});
 

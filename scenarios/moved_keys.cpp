@@ -22,6 +22,7 @@ constexpr Moved moved_keys[] = {
     {"envelope", "guidance.conditioned_force.envelope"},
     {"arrival.radius_m", "waypoint.radius_m"},
     {"arrival.ends_trial", "waypoint.ends_trial"},
+    {"arrival", "waypoint"},
     {"behaviour.virtual_potential.waypoint_x_m", "waypoint.x_m"},
     {"behaviour.virtual_potential.waypoint_y_m", "waypoint.y_m"},
     {"behaviour.virtual_potential_step.waypoint_x_m", "waypoint.x_m"},
@@ -32,13 +33,21 @@ constexpr Moved moved_keys[] = {
      "behaviour.assignment_registration.matching.sampled.delta_theta_deg"},
 };
 
+[[noreturn]] void refuse(const std::string& from, const std::string& to, const Origin& origin) {
+  throw InputError(origin, from + " is now " + to + "; write that");
+}
+
 }  // namespace
 
 void require_no_moved_keys(const Setting& root) {
   for (const auto& [from, to] : moved_keys) {
-    if (const Setting* written = root.find_path(from)) {
-      throw InputError(written->origin, std::string(from) + " is now " + to + "; write that");
-    }
+    if (const Setting* written = root.find_path(from)) refuse(from, to, written->origin);
+  }
+}
+
+void require_not_moved(std::string_view key, const Origin& origin) {
+  for (const auto& [from, to] : moved_keys) {
+    if (key == from || key.starts_with(std::string(from) + ".")) refuse(from, to, origin);
   }
 }
 

@@ -54,6 +54,11 @@ void Waypoint::declare(Options<Waypoint>& o) {
   o.flag("ends_trial", &Waypoint::ends_trial, "the trial ends when all vehicles have arrived");
 }
 
+std::optional<std::string> Waypoint::complaint() const {
+  if (std::isfinite(x_m) && std::isfinite(y_m)) return std::nullopt;
+  return "set both x_m and y_m";
+}
+
 void NodeLoss::declare(Options<NodeLoss>& o) {
   o.number("every_s", &NodeLoss::every_s, "s", at_least(0), "time between two losses");
   o.integer("count", &NodeLoss::count, "", in(0, 1e6), "how many vehicles are lost in all");

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
@@ -51,12 +52,13 @@ struct PlannerOptions {
 
 /// The place that all vehicles are led to, by behaviours that lead to one.
 struct Waypoint {
-  double x_m = 0.0;
-  double y_m = 0.0;
+  double x_m = std::numeric_limits<double>::quiet_NaN();  ///< to be set, and so is y_m
+  double y_m = std::numeric_limits<double>::quiet_NaN();
   double radius_m = 60.0;
   bool ends_trial = false;
 
   static void declare(Options<Waypoint>& o);
+  std::optional<std::string> complaint() const;
   Eigen::Vector2d place() const { return {x_m, y_m}; }
 };
 

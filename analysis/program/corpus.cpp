@@ -26,7 +26,7 @@ void suit(Setting& root, const std::string& kind) {
   const auto behaviour = Registry<formations::Behaviour>::instance().make(kind, {}, "behaviour");
   if (behaviour->needs_clock()) scenarios::apply_set(root, "planner.update=tick");
   if (behaviour->needs_waypoint() && !root.find("waypoint")) {
-    scenarios::apply_set(root, "waypoint.x_m=500");
+    scenarios::apply_set(root, "waypoint={x_m=500,y_m=0}");
   }
   scenarios::apply_set(root,
                        "guidance.kind=" + formations::guidance_for(behaviour->gives_forces()));

@@ -2,6 +2,8 @@
 
 #include <fmt/core.h>
 
+#include <cmath>
+
 #include "shoal/core/option_place.hpp"
 #include "shoal/core/text.hpp"
 
@@ -10,6 +12,9 @@ namespace {
 
 std::string value_text(const Setting& value) {
   if (value.is_table() && value.table().empty()) return "none";
+  if (const auto* number = std::get_if<double>(&value.value); number && std::isnan(*number)) {
+    return "none: to be set";
+  }
   Setting table;
   table.at_or_new("x") = value;
   const std::string text = to_toml(table);

@@ -233,7 +233,8 @@ void add_planners(py::module_& module) {
       "{'shape': {'kind': 'circle', 'circle': {'radius_m': 9}}}) are those of a scenario; "
       "vehicle:\n"
       "the name of the own slot; waypoint: (east, north), for behaviours that lead to one;\n"
-      "guidance: a kind of shoal.members('guidance'), by default one that fits the behaviour.\n"
+      "guidance: a kind of shoal.catalogue('guidance'), by default one that fits the behaviour\n"
+      "(conditioned_force for forces, which then asks for an OwnState).\n"
       "Positions: metres east and north in any fixed frame (dead reckoning will do), which is "
       "that\n"
       "of obstacles and waypoint, too. Raises InputError.")

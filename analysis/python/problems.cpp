@@ -122,10 +122,14 @@ HeldProblem python_problem(const py::object& cost, const Vector& start, const py
 /// The smooth problems that a behaviour solves for a vehicle at the origin.
 std::vector<HeldProblem> posed(const std::string& kind, const py::dict& options,
                                const Array& neighbours, const formations::Plan& plan, int own_slot,
-                               const std::vector<int>& slots) {
+                               const std::vector<int>& slots,
+                               const std::optional<Eigen::Vector2d>& waypoint) {
   const std::shared_ptr<const formations::Behaviour> behaviour =
       Registry<formations::Behaviour>::instance().make(kind, to_setting(options),
                                                        "behaviour." + kind);
+  if (behaviour->needs_waypoint() && !waypoint) {
+    throw InputError("behaviour " + kind + " leads to a waypoint; give waypoint = (east, north)");
+  }
   const std::vector<Eigen::Vector2d> places = points(neighbours, "neighbours");
   if (!slots.empty() && slots.size() != places.size()) {
     throw InputError("slots must be as many as neighbours, or none");
@@ -145,8 +149,10 @@ std::vector<HeldProblem> posed(const std::string& kind, const py::dict& options,
   Gathered gathered;
   gathered.owner = behaviour;
   solvers::SolveObserver* const observers[] = {&gathered};
-  behaviour->step({.neighbours = around, .own_slot = own_slot}, plan,
-                  formations::Solving(nullptr, observers));
+  behaviour->step({.neighbours = around,
+                   .own_slot = own_slot,
+                   .waypoint = waypoint.value_or(Eigen::Vector2d::Zero())},
+                  plan, formations::Solving(nullptr, observers));
   return gathered.problems;
 }
 
@@ -266,8 +272,11 @@ void add_problems(py::module_& module) {
   module.def(
       "posed", &posed, py::arg("behaviour"), py::arg("options"), py::arg("neighbours"),
       py::arg("plan"), py::arg("own_slot") = 0, py::arg("slots") = std::vector<int>{},
+      py::arg("waypoint") = std::nullopt,
       "The smooth problems that a behaviour solves for a vehicle at the origin. neighbours:\n"
-      "array (neighbours, 2), metres in its own frame; slots: theirs in the plan.");
+      "array (neighbours, 2), metres in its own frame; slots: theirs in the plan; waypoint: in "
+      "the\n"
+      "same frame, for behaviours that lead to one. Raises InputError.");
   module.def("register", &registered, py::arg("from_points"), py::arg("to_points"),
              py::arg("weights") = std::nullopt, py::arg("solver") = "procrustes",
              py::arg("loss") = "least_squares", py::arg("options") = py::dict(),

@@ -7,6 +7,7 @@
 #include "shoal/core/option_place.hpp"
 #include "shoal/core/text.hpp"
 #include "shoal/scenarios/inheritance.hpp"
+#include "shoal/scenarios/moved_keys.hpp"
 #include "shoal/scenarios/scenario.hpp"
 
 namespace shoal::analysis {
@@ -79,6 +80,7 @@ Axis::Axis(const Factor& factor)
   } else if (key_ == "scenario" || key_ == scenarios::inherits_key) {
     take_values(factor);
   } else {
+    scenarios::require_not_moved(key_, factor.origin);
     const OptionPlace place = locate(schema_of<scenarios::Scenario>(), key_, factor.origin);
     if (key_ == "trial.seed") {
       throw InputError(factor.origin,

@@ -6,6 +6,7 @@
 #include "shoal/core/whole_file.hpp"
 #include "shoal/scenarios/inheritance.hpp"
 #include "shoal/scenarios/library_path.hpp"
+#include "shoal/scenarios/moved_keys.hpp"
 #include "shoal/scenarios/scenario.hpp"
 #include "shoal/scenarios/toml_file.hpp"
 
@@ -41,6 +42,7 @@ void make_files_absolute(Setting& place, const std::string& key) {
     for (auto& [name, entry] : place.table()) make_files_absolute(entry, dotted(key, name));
     return;
   }
+  scenarios::require_not_moved(key, place.origin);
   const OptionPlace named = locate(schema_of<scenarios::Scenario>(), key, place.origin);
   if (named.is_kind || named.member || !named.option->is_file) return;
   place.value = detail::as_file(*named.option, place, key).path.string();

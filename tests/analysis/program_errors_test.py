@@ -102,6 +102,8 @@ BAD_SCENARIOS = [
     ("places that the guidance does not take", SMALL + '[guidance]\nkind = "conditioned_force"\n', {},
      ["s.toml:6: behaviour rigid_registration gives places, which guidance conditioned_force does "
       'not take; set guidance.kind = "drift"\n']),
+    ("half a waypoint", SMALL + "[waypoint]\nx_m = 5\n", {},
+     ["s.toml:5: waypoint: set both x_m and y_m\n"]),
     ("no waypoint to lead to", SMALL + '[behaviour]\nkind = "virtual_potential"\n', {},
      ["s.toml:6: behaviour virtual_potential leads to a waypoint; set waypoint.x_m and "
       "waypoint.y_m\n"]),

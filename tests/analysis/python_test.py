@@ -469,6 +469,17 @@ class Problems(Desk):
                 with self.assertRaisesRegex(shoal.InputError, says):
                     shoal.solve(shoal.Problem(lambda x: x @ x, start, **{part: wrong}))
 
+    def test_what_a_behaviour_solves_can_be_kept_and_solved(self):
+        plan = shoal.Plan(numpy.array([[0, 0], [30, 0], [0, 30]], float))
+        near = numpy.array([[30.0, 2], [1, 30]])
+        with self.assertRaisesRegex(shoal.InputError, "leads to a waypoint"):
+            shoal.posed("virtual_potential_step", {}, near, plan)
+        problems = shoal.posed("virtual_potential_step", {}, near, plan, waypoint=(300, 0))
+        before = problems[0].evaluate([1.0, 2.0])[0]
+        del near
+        self.assertEqual(problems[0].evaluate([1.0, 2.0])[0], before)
+        self.assertEqual(shoal.solve(problems[0], "newton").status, "converged")
+
     def test_a_match_that_cannot_be_is_refused_in_words(self):
         places = numpy.eye(2) * 100
         for step in (0, 1e-7, -10, 181, math.nan):

@@ -200,6 +200,10 @@ TEST(Planner, RefusesPartsThatDoNotFit) {
             "the behaviour gives places, and the guidance takes forces");
   EXPECT_EQ(complaint_of([&] { Planner(plan, behaviour("virtual_potential"), "v0"); }),
             "the behaviour leads vehicles to a waypoint, and there is none; give one");
+  EXPECT_EQ(complaint_of([&] {
+              Planner(plan, behaviour("virtual_potential"), "v0", {.waypoint = Vector2d(1, NAN)});
+            }),
+            "the waypoint is not finite; give metres east and north");
 }
 
 TEST(Planner, RefusesToCommandWithoutGuidanceOrAState) {
