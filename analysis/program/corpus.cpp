@@ -6,6 +6,7 @@
 #include "shoal/analysis/problem_recorder.hpp"
 #include "shoal/analysis/trial.hpp"
 #include "shoal/core/text.hpp"
+#include "shoal/scenarios/behaviour_choice.hpp"
 #include "shoal/scenarios/library_path.hpp"
 #include "shoal/scenarios/toml_file.hpp"
 
@@ -20,22 +21,10 @@ void thin(std::vector<analysis::Situation>& situations, std::size_t keep) {
   situations.resize(keep);
 }
 
-/// Gives a scenario what a behaviour asks for that is not its own.
-void suit(Setting& root, const std::string& kind) {
-  scenarios::apply_set(root, "behaviour.kind=" + kind);
-  const auto behaviour = Registry<formations::Behaviour>::instance().make(kind, {}, "behaviour");
-  if (behaviour->needs_clock()) scenarios::apply_set(root, "planner.update=tick");
-  if (behaviour->needs_waypoint() && !root.find("waypoint")) {
-    scenarios::apply_set(root, "waypoint={x_m=500,y_m=0}");
-  }
-  scenarios::apply_set(root,
-                       "guidance.kind=" + formations::guidance_for(behaviour->gives_forces()));
-}
-
 analysis::Corpus recorded(const std::string& name, const std::string& behaviour,
                           const CorpusArguments& arguments) {
   Setting root = scenarios::read_toml(scenarios::find_scenario(name));
-  suit(root, behaviour);
+  scenarios::choose_behaviour(root, behaviour);
   scenarios::apply_set(root, "trial.duration_s=" + shortest(arguments.duration_s));
   scenarios::apply_set(root, "trial.seed=" + arguments.seed);
   const scenarios::Scenario scenario = scenarios::read_scenario(root);

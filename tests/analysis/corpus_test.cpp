@@ -9,6 +9,7 @@
 #include "shoal/analysis/problem_recorder.hpp"
 #include "shoal/analysis/solver_comparison.hpp"
 #include "shoal/analysis/trial.hpp"
+#include "shoal/scenarios/behaviour_choice.hpp"
 #include "shoal/scenarios/toml_file.hpp"
 
 namespace shoal::analysis {
@@ -35,13 +36,9 @@ class Corpora : public testing::Test {
 
 scenarios::Scenario scenario(const std::string& behaviour) {
   Setting root = scenarios::read_toml(scenarios::find_scenario("construction_square"));
-  scenarios::apply_set(root, "behaviour.kind=" + behaviour);
+  scenarios::choose_behaviour(root, behaviour);
   scenarios::apply_set(root, "trial.duration_s=300");
   scenarios::apply_set(root, "behaviour.rigid_registration.ownship_weight=0.1");
-  const auto made = Registry<formations::Behaviour>::instance().make(behaviour, {}, "");
-  if (made->needs_clock()) scenarios::apply_set(root, "planner.update=tick");
-  if (made->needs_waypoint()) scenarios::apply_set(root, "waypoint={x_m=500,y_m=-20}");
-  scenarios::apply_set(root, "guidance.kind=" + formations::guidance_for(made->gives_forces()));
   return scenarios::read_scenario(root);
 }
 
