@@ -12,7 +12,7 @@ namespace shoal::formations {
 /// Why a target is what it is.
 enum class Reason : std::uint8_t {
   placed,         ///< the behaviour's problem was solved
-  no_neighbour,   ///< nobody usable was heard: hold the own position
+  no_neighbour,   ///< no usable neighbour was heard: hold the own position
   one_neighbour,  ///< two are needed: hold
   degenerate,     ///< the neighbours fix no direction (coincident): hold
   solver_failed,  ///< the solver gave no usable point: hold

@@ -7,7 +7,7 @@
 namespace shoal::solvers {
 
 /// How a solve of any family ended, decided by our own check of the answer and not by the backend's
-/// word.
+/// word. In this order: those to stalled_at_roundoff are usable, those after it are not.
 enum class Status : std::uint8_t {
   converged,  ///< a minimum: of a smooth problem a local one, of a matching the least of all tried
   target_reached,

@@ -91,7 +91,7 @@ class PythonCost final : public solvers::Objective {
   int dimension_;
 };
 
-/// A problem, and whoever its cost belongs to.
+/// A problem, and the owner of what its cost refers to.
 struct HeldProblem {
   Problem problem;
   std::shared_ptr<const void> owner;  // a behaviour whose parts the cost uses

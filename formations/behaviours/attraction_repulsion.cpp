@@ -132,8 +132,8 @@ class AttractionRepulsion final : public Behaviour {
     }
     potential->prepare(options.separation_m);
     potential_ = std::move(potential);
-    const Neighbour somebody{{options.separation_m, 0.0}};
-    const solvers::Problem usual(Eigen::Vector2d::Zero(), cost_of({&somebody, 1}, {}));
+    const Neighbour neighbour{{options.separation_m, 0.0}};
+    const solvers::Problem usual(Eigen::Vector2d::Zero(), cost_of({&neighbour, 1}, {}));
     if (const auto why = solver_->refuses(usual)) {
       refuse(options.solver, *why + "; choose a solver for two unknowns without bounds");
     }
@@ -152,7 +152,8 @@ class AttractionRepulsion final : public Behaviour {
   }
 
  private:
-  /// The problem of a vehicle, valid as long as this behaviour; nothing if nobody is in range.
+  /// The problem of a vehicle, valid as long as this behaviour; nothing if no neighbour is in
+  /// range.
   std::optional<solvers::Problem> problem_of(const Neighbourhood& seen) const {
     thread_local std::vector<Neighbour> in_range;
     in_range.clear();

@@ -56,8 +56,8 @@ class RigidRegistration final : public Behaviour {
   }
 
  private:
-  /// The slots of those who were heard, and where they are; before them the own slot, if it
-  /// counts. Nothing if nobody was heard. `storage` only grows.
+  /// The slots of the neighbours that were heard, and their places; before them the own slot, if it
+  /// counts. Nothing if no neighbour was heard. `storage` only grows.
   std::span<const solvers::PointPair> pairs_of(const Neighbourhood& seen, const Plan& plan,
                                                std::vector<solvers::PointPair>& storage) const {
     const std::size_t most = seen.neighbours.size() + 1;

@@ -130,7 +130,7 @@ double AssignmentSolver::price_sum() const {
   return rows_ == columns_ ? sum : sum - (columns_ - rows_) * highest_price();
 }
 
-// Each row takes the column it likes best if nobody has it yet; the others are left pending.
+// Each row takes its cheapest column if that is still free; the others are left pending.
 AssignmentStatus AssignmentSolver::take_row_minima() {
   std::fill(row_of_column_.begin(), row_of_column_.end(), -1);
   pending_.clear();
