@@ -33,9 +33,9 @@ class Solving {
     const double begin = now_s();
     const auto answer = solver.solve(problem, std::forward<More>(more)...);
     const double seconds = now_s() - begin;
-    for (solvers::SolveObserver* each : observers_) {
-      each->answered(answer, seconds);
-      each->solved(problem, answer);
+    for (solvers::SolveObserver* each : observers_) each->answered(answer, seconds);
+    if (wants_.problems) {
+      for (solvers::SolveObserver* each : observers_) each->solved(problem, answer);
     }
     return answer;
   }

@@ -12,7 +12,7 @@ namespace shoal::solvers {
 class SolveObserver {
  public:
   struct Wants {
-    bool problems = true;  ///< closed forms state theirs only then
+    bool problems = true;  ///< solved() is called; closed forms state theirs only then
     bool times = false;    ///< else they are given as zero, and no clock is read
 
     Wants operator|(const Wants& other) const {

@@ -38,13 +38,16 @@ class SearchSizeMeasure final : public Measure {
       if (!world.lost(i) && (!most || heard(i) > heard(*most))) most = i;
     }
     if (most) {
+      const auto& waypoint = world.scenario().waypoint;
       const formations::Planner& planner = world.planner(*most);
       solvers::SolveObserver* const observers[] = {&size};
-      world.behaviour().step({.neighbours = planner.last_neighbours(),
-                              .own_slot = planner.own_slot(),
-                              .own = world.swarm().own_state(*most),
-                              .obstacles = world.obstacles()},
-                             world.plan(), formations::Solving(nullptr, observers));
+      world.behaviour().step(
+          {.neighbours = planner.last_neighbours(),
+           .own_slot = planner.own_slot(),
+           .own = world.swarm().own_state(*most),
+           .obstacles = world.obstacles(),
+           .waypoint = waypoint ? waypoint->place() : Eigen::Vector2d::Zero().eval()},
+          world.plan(), formations::Solving(nullptr, observers));
     }
     results.add("search_assignments", size.assignments);
     results.add("search_distances", size.distances);
