@@ -12,44 +12,9 @@ class SumOfLosses final : public Objective {
       : structure_(std::move(structure)), dimension_(dimension) {}
 
   double evaluate(const double* x, double* gradient, double* hessian) const override {
-    using Matrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, Problem::max_dimension,
-                                 Problem::max_dimension>;
-    constexpr int most = VectorFunction::max_block_size;
-    constexpr int n_max = Problem::max_dimension;
-    double r[most], jacobian[most * n_max], curvatures[most * n_max * n_max];
-    const VectorFunction& residuals = *structure_->residuals;
-    const std::ptrdiff_t m = residuals.block_size();
-    const std::ptrdiff_t n = dimension_;
-
-    double cost = 0.0;
-    Problem::Vector slope = Problem::Vector::Zero(n);
-    Matrix curvature = Matrix::Zero(n, n);
-    for (int b = 0; b < residuals.blocks(); ++b) {
-      residuals.evaluate(b, x, r, gradient || hessian ? jacobian : nullptr,
-                         hessian ? curvatures : nullptr);
-      double squared = 0.0;
-      for (std::ptrdiff_t k = 0; k < m; ++k) squared += r[k] * r[k];
-      const LossValue loss = structure_->loss_at(squared);
-      const double weight = structure_->weight(b);
-      cost += weight * loss.value;
-      if (!gradient && !hessian) continue;
-
-      const Eigen::Map<
-          const Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor, most, n_max>>
-          J(jacobian, m, n);
-      const Problem::Vector pull = J.transpose() * Eigen::Map<const Problem::Vector>(r, m);
-      slope += 2.0 * weight * loss.slope * pull;
-      if (!hessian) continue;
-      curvature += 2.0 * weight * loss.slope * (J.transpose() * J);
-      curvature += 4.0 * weight * loss.curvature * (pull * pull.transpose());
-      for (std::ptrdiff_t k = 0; k < m; ++k) {
-        curvature += 2.0 * weight * loss.slope * r[k] *
-                     Eigen::Map<const Matrix>(curvatures + k * n * n, n, n);
-      }
-    }
-    if (gradient) Eigen::Map<Problem::Vector>(gradient, n) = slope;
-    if (hessian) Eigen::Map<Matrix>(hessian, n, n) = curvature;
-    return cost;
+    constexpr int few = Unknowns::in_place;
+    return dimension_ <= few ? evaluated<few>(x, gradient, hessian)
+                             : evaluated<Eigen::Dynamic>(x, gradient, hessian);
   }
 
   std::pair<Objective*, bool> copy_into(void* storage, std::size_t size) const override {
@@ -57,6 +22,51 @@ class SumOfLosses final : public Objective {
   }
 
  private:
+  /// Of at most n_max unknowns.
+  template <int n_max>
+  double evaluated(const double* x, double* gradient, double* hessian) const {
+    constexpr int most = VectorFunction::max_block_size;
+    constexpr int all = n_max == Eigen::Dynamic ? Eigen::Dynamic : most * n_max * n_max;
+    using Vector = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, n_max, 1>;
+    using Matrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, n_max, n_max>;
+    using Jacobian =
+        Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor, most, n_max>;
+    const VectorFunction& residuals = *structure_->residuals;
+    const std::ptrdiff_t m = residuals.block_size();
+    const std::ptrdiff_t n = dimension_;
+
+    double cost = 0.0, r[most];
+    Vector slope = Vector::Zero(n);
+    Matrix curvature = Matrix::Zero(hessian ? n : 0, hessian ? n : 0);
+    Jacobian J(m, n);
+    Eigen::Matrix<double, Eigen::Dynamic, 1, 0, all, 1> curvatures(hessian ? m * n * n : 0);
+    for (int b = 0; b < residuals.blocks(); ++b) {
+      residuals.evaluate(b, x, r, gradient || hessian ? J.data() : nullptr,
+                         hessian ? curvatures.data() : nullptr);
+      double squared = 0.0;
+      for (std::ptrdiff_t k = 0; k < m; ++k) squared += r[k] * r[k];
+      const LossValue loss = structure_->loss_at(squared);
+      const double weight = structure_->weight(b);
+      cost += weight * loss.value;
+      if (!gradient && !hessian) continue;
+
+      const Vector pull =
+          J.transpose() *
+          Eigen::Map<const Eigen::Matrix<double, Eigen::Dynamic, 1, 0, most, 1>>(r, m);
+      slope += 2.0 * weight * loss.slope * pull;
+      if (!hessian) continue;
+      curvature += 2.0 * weight * loss.slope * (J.transpose() * J);
+      curvature += 4.0 * weight * loss.curvature * (pull * pull.transpose());
+      for (std::ptrdiff_t k = 0; k < m; ++k) {
+        curvature += 2.0 * weight * loss.slope * r[k] *
+                     Eigen::Map<const Matrix>(curvatures.data() + k * n * n, n, n);
+      }
+    }
+    if (gradient) Eigen::Map<Vector>(gradient, n) = slope;
+    if (hessian) Eigen::Map<Matrix>(hessian, n, n) = curvature;
+    return cost;
+  }
+
   std::shared_ptr<const LeastSquares> structure_;
   int dimension_;
 };

@@ -9,6 +9,7 @@ Problem::Problem(const Problem& other)
       lower(other.lower),
       upper(other.upper),
       constraints(other.constraints),
+      equalities(other.equalities),
       least_squares(other.least_squares),
       best_known(other.best_known) {
   adopt(*other.objective_);
@@ -21,6 +22,7 @@ Problem& Problem::operator=(const Problem& other) {
   lower = other.lower;
   upper = other.upper;
   constraints = other.constraints;
+  equalities = other.equalities;
   least_squares = other.least_squares;
   best_known = other.best_known;
   adopt(*other.objective_);

@@ -8,6 +8,7 @@
 #include <type_traits>
 #include <utility>
 
+#include "shoal/solvers/unknowns.hpp"
 #include "shoal/solvers/vector_function.hpp"
 
 namespace shoal::solvers {
@@ -39,14 +40,13 @@ std::pair<Objective*, bool> copied_into(const Concrete& objective, void* storage
 }
 
 /// A smooth problem: minimise the objective from the start, inside the bounds (if any), where all
-/// constraints (if any) are at least zero.
+/// constraints (if any) are at least zero, and all equalities (if any) are zero.
 ///
-/// A copyable value. Small objectives are held in place, so that posing a problem in a control
-/// loop does not allocate.
+/// A copyable value. Small objectives and few unknowns are held in place, so that posing a problem
+/// in a control loop does not allocate.
 class Problem {
  public:
-  static constexpr int max_dimension = 6;
-  using Vector = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, max_dimension, 1>;
+  using Vector = Unknowns;
 
   /// `objective`: any type derived from Objective (autodiff.hpp makes one of a templated cost).
   template <class Concrete>
@@ -60,6 +60,7 @@ class Problem {
   ~Problem();
 
   int dimension() const { return static_cast<int>(start.size()); }
+  bool constrained() const { return constraints || equalities; }
   double evaluate(const double* x, double* gradient = nullptr, double* hessian = nullptr) const {
     return objective_->evaluate(x, gradient, hessian);
   }
@@ -68,6 +69,7 @@ class Problem {
   std::optional<Vector> lower;  ///< both or none
   std::optional<Vector> upper;
   std::shared_ptr<const VectorFunction> constraints;  ///< g(x) >= 0; nullptr: none
+  std::shared_ptr<const VectorFunction> equalities;   ///< h(x) = 0; nullptr: none
   std::shared_ptr<const LeastSquares> least_squares;  ///< of the same cost; nullptr: has none
   std::optional<double> best_known;                   ///< the lowest cost known, for tests
 

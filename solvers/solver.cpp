@@ -4,7 +4,8 @@ namespace shoal::solvers {
 
 Solution refused(const Problem& problem) {
   Solution solution;
-  solution.x.setConstant(problem.start.size(), std::numeric_limits<double>::quiet_NaN());
+  solution.x =
+      Problem::Vector::Constant(problem.start.size(), std::numeric_limits<double>::quiet_NaN());
   solution.backend_says = "the solver does not take this problem; its refuses() says why";
   return solution;
 }

@@ -5,7 +5,7 @@ namespace shoal::solvers {
 /// Several functions of the unknowns at once: the residuals or the constraints of a problem.
 ///
 /// They come in blocks of equal size: the two coordinates of a point that misses its place belong
-/// together and share one loss; constraints are blocks of one.
+/// together and share one loss; constraints and equalities are blocks of one.
 class VectorFunction {
  public:
   static constexpr int max_block_size = 3;

@@ -100,10 +100,7 @@ struct HeldProblem {
 HeldProblem python_problem(const py::object& cost, const Vector& start, const py::object& gradient,
                            const py::object& hessian, const std::optional<Vector>& lower,
                            const std::optional<Vector>& upper) {
-  if (start.size() < 1 || start.size() > Problem::max_dimension) {
-    throw InputError("a problem has 1 to " + std::to_string(Problem::max_dimension) +
-                     " unknowns; this start has " + std::to_string(start.size()));
-  }
+  if (start.size() < 1) throw InputError("the start has no unknowns");
   if (lower.has_value() != upper.has_value()) {
     throw InputError("bounds come in pairs: give lower and upper, or neither");
   }
@@ -223,8 +220,8 @@ py::dict matched(const Array& seen, const Array& slots, double ownship_weight,
 void add_problems(py::module_& module) {
   py::class_<HeldProblem>(
       module, "Problem",
-      "A smooth problem: minimise cost(x) from a start, inside bounds if there are any. Up to six\n"
-      "unknowns. cost takes an array; gradient and hessian, where not given, are central "
+      "A smooth problem: minimise cost(x) from a start, inside bounds if there are any.\n"
+      "cost takes an array; gradient and hessian, where not given, are central "
       "differences.")
       .def(py::init(&python_problem), py::arg("cost"), py::arg("start"), py::kw_only(),
            py::arg("gradient") = py::none(), py::arg("hessian") = py::none(),

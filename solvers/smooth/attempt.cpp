@@ -10,20 +10,23 @@ namespace shoal::solvers {
 namespace {
 
 using Vector = Problem::Vector;
+/// For the derivatives of few unknowns without allocating.
+using Scratch = boost::container::small_vector<double, 36>;
 
 }  // namespace
 
 Attempt::Attempt(const Problem& problem, const Limits& limits)
     : problem_(problem),
       limits_(limits),
-      hemmed_in_(problem.lower || problem.upper || problem.constraints),
+      hemmed_in_(problem.lower || problem.upper || problem.constrained()),
       point_(problem.start),
       best_(Vector::Constant(problem.start.size(), std::numeric_limits<double>::quiet_NaN())) {
   wrong_ = flaw();
   if (wrong_) return;
   for (int i = 0; i < problem.dimension(); ++i) {
-    if (!problem.lower || (*problem.lower)[i] < (*problem.upper)[i]) free_[free_count_++] = i;
+    if (!problem.lower || (*problem.lower)[i] < (*problem.upper)[i]) free_.push_back(i);
   }
+  free_count_ = static_cast<int>(free_.size());
   all_free_ = free_count_ == problem.dimension();
   open_ = free_count_ > 0;
   if (!open_) {
@@ -36,8 +39,8 @@ const char* Attempt::flaw() const {
   const Vector& start = problem_.start;
   if (start.size() < 1) return "the start has no unknowns";
   if (!start.allFinite()) return "the start is not finite";
-  if (problem_.constraints && problem_.constraints->block_size() != 1) {
-    return "constraints come in blocks of one";
+  for (const auto& each : {problem_.constraints, problem_.equalities}) {
+    if (each && each->block_size() != 1) return "constraints come in blocks of one";
   }
   if (problem_.lower.has_value() != problem_.upper.has_value()) {
     return "one of the bounds is missing; give both or none";
@@ -58,13 +61,13 @@ const char* Attempt::flaw() const {
 
 Vector Attempt::free_part(const Vector& all) const {
   Vector part(free_count_);
-  for (int k = 0; k < free_count_; ++k) part[k] = all[free_[k]];
+  for (int k = 0; k < free_count_; ++k) part[k] = all[free(k)];
   return part;
 }
 
 const double* Attempt::place(const double* y) {
   if (all_free_) return y;
-  for (int k = 0; k < free_count_; ++k) point_[free_[k]] = y[k];
+  for (int k = 0; k < free_count_; ++k) point_[free(k)] = y[k];
   return point_.data();
 }
 
@@ -93,13 +96,17 @@ bool Attempt::reduced(const Function& function, const double* y, double& value, 
   if (all_free_) {
     value = function(y, gradient, hessian);
   } else {
-    double slope[Problem::max_dimension],
-        curvature[Problem::max_dimension * Problem::max_dimension];
     const int n = problem_.dimension();
-    value = function(place(y), gradient ? slope : nullptr, hessian ? curvature : nullptr);
-    for (int k = 0; gradient && k < free_count_; ++k) gradient[k] = slope[free_[k]];
+    Scratch slope(static_cast<std::size_t>(gradient ? n : 0)),
+        curvature(static_cast<std::size_t>(hessian ? n * n : 0));
+    value =
+        function(place(y), gradient ? slope.data() : nullptr, hessian ? curvature.data() : nullptr);
+    for (int k = 0; gradient && k < free_count_; ++k) {
+      gradient[k] = slope[static_cast<std::size_t>(free(k))];
+    }
     for (int k = 0; hessian && k < free_count_ * free_count_; ++k) {
-      hessian[k] = curvature[free_[k / free_count_] * n + free_[k % free_count_]];
+      hessian[k] =
+          curvature[static_cast<std::size_t>(free(k / free_count_) * n + free(k % free_count_))];
     }
   }
   bool finite = std::isfinite(value);
@@ -135,7 +142,9 @@ Attempt::Outcome Attempt::constrain(int k, const double* y, double& value, doubl
   if (stopped_) return Outcome::stop;
   const auto constraint = [&](const double* x, double* slope, double* curvature) {
     double at_x = 0.0;
-    problem_.constraints->evaluate(k, x, &at_x, slope, curvature);
+    const bool equal = k >= constraints();
+    const VectorFunction& function = equal ? *problem_.equalities : *problem_.constraints;
+    function.evaluate(equal ? k - constraints() : k, x, &at_x, slope, curvature);
     return at_x;
   };
   return guarded([&] { return reduced(constraint, y, value, gradient, hessian); });
@@ -151,18 +160,18 @@ Attempt::Outcome Attempt::begin_residuals() {
 Attempt::Outcome Attempt::residuals(int block, const double* y, double* values, double* jacobian) {
   if (stopped_) return Outcome::stop;
   return guarded([&] {
-    constexpr int m_max = VectorFunction::max_block_size;
     const LeastSquares& structure = *problem_.least_squares;
     const int m = structure.residuals->block_size(), n = problem_.dimension();
     const double* x = place(y);
-    double whole[m_max * Problem::max_dimension];
-    structure.residuals->evaluate(block, x, values, jacobian ? whole : nullptr, nullptr);
+    Scratch whole(static_cast<std::size_t>(jacobian ? m * n : 0));
+    structure.residuals->evaluate(block, x, values, jacobian ? whole.data() : nullptr, nullptr);
     double squared = 0.0;
     bool finite = true;
     for (int r = 0; r < m; ++r) {
       squared += values[r] * values[r];
       for (int k = 0; jacobian && k < free_count_; ++k) {
-        const double entry = jacobian[r * free_count_ + k] = whole[r * n + free_[k]];
+        const double entry = jacobian[r * free_count_ + k] =
+            whole[static_cast<std::size_t>(r * n + free(k))];
         finite &= std::isfinite(entry);
       }
     }
@@ -183,7 +192,7 @@ Attempt::Outcome Attempt::residuals(int block, const double* y, double* values, 
 void Attempt::remember(const double* x, double cost) {
   double violation = 0.0;
   if (hemmed_in_) {
-    const Eigen::Map<const Vector> here(x, point_.size());
+    const Eigen::Map<const Eigen::VectorXd> here(x, point_.size());
     const double outside = bounds_violation(problem_, here);
     const double broken = constraint_violation(problem_, here);
     if (std::isnan(broken)) return;

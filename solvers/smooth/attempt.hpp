@@ -1,5 +1,6 @@
 #pragma once
 
+#include <boost/container/small_vector.hpp>
 #include <chrono>
 #include <exception>
 
@@ -39,12 +40,14 @@ class Attempt {
   Problem::Vector lower() const { return free_part(*problem_.lower); }
   Problem::Vector upper() const { return free_part(*problem_.upper); }
   int constraints() const { return problem_.constraints ? problem_.constraints->blocks() : 0; }
+  int equalities() const { return problem_.equalities ? problem_.equalities->blocks() : 0; }
 
   /// The cost at y, its gradient and its Hessian (column-major) where they are not null.
   Outcome evaluate(const double* y, double& cost, double* gradient = nullptr,
                    double* hessian = nullptr);
 
-  /// Constraint k at y. Not counted as an evaluation.
+  /// Constraint k at y: first those that are to be at least zero, then the equalities. Not counted
+  /// as an evaluation.
   Outcome constrain(int k, const double* y, double& value, double* gradient = nullptr,
                     double* hessian = nullptr);
 
@@ -79,6 +82,7 @@ class Attempt {
  private:
   const char* flaw() const;
   Problem::Vector free_part(const Problem::Vector& all) const;
+  int free(int k) const { return free_[static_cast<std::size_t>(k)]; }
   const double* place(const double* y);  ///< all unknowns at y
   bool may_go_on();                      ///< counts an evaluation, or ends the attempt
   /// What a function of all unknowns gives at y, in the free ones; whether that is finite.
@@ -100,7 +104,7 @@ class Attempt {
   const Limits limits_;
   const std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();
   const bool hemmed_in_;  // by bounds or constraints
-  int free_[Problem::max_dimension] = {};
+  boost::container::small_vector<int, Unknowns::in_place> free_;
   int free_count_ = 0;
   bool all_free_ = false;
   bool open_ = false;

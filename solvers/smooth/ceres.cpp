@@ -83,7 +83,7 @@ class LineSearch final : public Solver {
   }
 
   std::optional<std::string> refuses(const Problem& problem) const override {
-    if (problem.constraints) return "takes no constraints";
+    if (problem.constrained()) return "takes no constraints";
     if (problem.lower) return "takes no bounds";
     return std::nullopt;
   }
@@ -180,7 +180,7 @@ class TrustRegion final : public Solver {
 
   std::optional<std::string> refuses(const Problem& problem) const override {
     if (!problem.least_squares) return "needs residuals: the cost is no sum of squares";
-    if (problem.constraints) return "takes no constraints";
+    if (problem.constrained()) return "takes no constraints";
     return std::nullopt;
   }
 

@@ -1,4 +1,6 @@
 #include <algorithm>
+#include <array>
+#include <span>
 
 #include "shoal/solvers/smooth/attempt.hpp"
 
@@ -56,31 +58,35 @@ class Grid final : public Solver {
         !(problem.lower->allFinite() && problem.upper->allFinite())) {
       return "needs finite bounds: it tries the whole box";
     }
-    if (problem.constraints) {
+    if (problem.constrained()) {
       return "takes no constraints: along a curved edge the best lies between its points";
     }
-    if (problem.dimension() > 3) return "takes at most three unknowns: a grid of more has no end";
+    if (problem.dimension() > most_unknowns)
+      return "takes at most three unknowns: a grid of more has no end";
     return std::nullopt;
   }
 
  private:
   static constexpr double zoom = 0.2;
+  static constexpr int most_unknowns = 3;
 
   bool visit_all(Attempt& attempt, const Vector& low, const Vector& high) const {
     const int n = attempt.unknowns();
     const auto last = options_.points_per_axis - 1;
-    std::int64_t index[Problem::max_dimension] = {};
+    std::array<std::int64_t, most_unknowns> axes{};
+    const std::span<std::int64_t> index(axes.data(), static_cast<std::size_t>(n));
     Vector y(n);
     for (;;) {
       for (int i = 0; i < n; ++i) {
-        const double share = static_cast<double>(index[i]) / static_cast<double>(last);
+        const double share =
+            static_cast<double>(index[static_cast<std::size_t>(i)]) / static_cast<double>(last);
         y[i] = std::min(low[i] + share * (high[i] - low[i]), high[i]);
       }
       double cost = 0.0;
       if (attempt.evaluate(y.data(), cost) == Attempt::Outcome::stop) return false;
-      int axis = 0;
-      while (axis < n && index[axis] == last) index[axis++] = 0;
-      if (axis == n) return true;
+      std::size_t axis = 0;
+      while (axis < index.size() && index[axis] == last) index[axis++] = 0;
+      if (axis == index.size()) return true;
       ++index[axis];
     }
   }

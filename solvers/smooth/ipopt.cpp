@@ -29,7 +29,7 @@ class Posed final : public Ipopt::TNLP {
   bool get_nlp_info(Index& n, Index& m, Index& jacobian_entries, Index& hessian_entries,
                     IndexStyleEnum& style) override {
     n = n_;
-    m = attempt_.constraints();
+    m = attempt_.constraints() + attempt_.equalities();
     jacobian_entries = n * m;
     hessian_entries = n * (n + 1) / 2;
     style = C_STYLE;
@@ -45,7 +45,7 @@ class Posed final : public Ipopt::TNLP {
     }
     for (Index k = 0; k < m; ++k) {
       g_lower[k] = 0.0;
-      g_upper[k] = none;
+      g_upper[k] = k < attempt_.constraints() ? none : 0.0;
     }
     return true;
   }
@@ -65,7 +65,7 @@ class Posed final : public Ipopt::TNLP {
 
   bool eval_grad_f(Index, const Number* y, bool is_new, Number* gradient) override {
     if (!at(y, is_new)) return false;
-    std::copy_n(slope_, n_, gradient);
+    std::copy_n(slope_.data(), n_, gradient);
     return true;
   }
 
@@ -108,18 +108,18 @@ class Posed final : public Ipopt::TNLP {
       return true;
     }
     if (!at(y, is_new)) return false;
-    double sum[Problem::max_dimension * Problem::max_dimension];
-    for (int i = 0; i < n_ * n_; ++i) sum[i] = cost_factor * curvature_[i];
+    Eigen::MatrixXd sum = cost_factor * curvature_, hessian(n_, n_);
+    Eigen::VectorXd gradient(n_);
     for (Index k = 0; k < m; ++k) {
-      double value = 0.0, gradient[Problem::max_dimension],
-             hessian[Problem::max_dimension * Problem::max_dimension];
-      if (attempt_.constrain(k, y, value, gradient, hessian) != Attempt::Outcome::fine) {
+      double value = 0.0;
+      if (attempt_.constrain(k, y, value, gradient.data(), hessian.data()) !=
+          Attempt::Outcome::fine) {
         return false;
       }
-      for (int i = 0; i < n_ * n_; ++i) sum[i] += multiplier[k] * hessian[i];
+      sum += multiplier[k] * hessian;
     }
     for (int i = 0, entry = 0; i < n_; ++i) {
-      for (int j = 0; j <= i; ++j, ++entry) values[entry] = sum[i * n_ + j];
+      for (int j = 0; j <= i; ++j, ++entry) values[entry] = sum(j, i);
     }
     return true;
   }
@@ -143,7 +143,8 @@ class Posed final : public Ipopt::TNLP {
   // Everything is computed at once when a point is new, and counts as one evaluation.
   bool at(const Number* y, bool is_new) {
     if (is_new || !known_) {
-      known_ = attempt_.evaluate(y, cost_, slope_, curvature_) == Attempt::Outcome::fine;
+      known_ =
+          attempt_.evaluate(y, cost_, slope_.data(), curvature_.data()) == Attempt::Outcome::fine;
     }
     return known_;
   }
@@ -152,8 +153,9 @@ class Posed final : public Ipopt::TNLP {
   double tolerance_;
   int n_;
   bool known_ = false;
-  double cost_ = 0.0, slope_[Problem::max_dimension] = {},
-         curvature_[Problem::max_dimension * Problem::max_dimension] = {};
+  double cost_ = 0.0;
+  Eigen::VectorXd slope_ = Eigen::VectorXd::Zero(n_);
+  Eigen::MatrixXd curvature_ = Eigen::MatrixXd::Zero(n_, n_);
 };
 
 class InteriorPoint final : public Solver {

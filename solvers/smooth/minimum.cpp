@@ -5,7 +5,6 @@
 #include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
-#include <type_traits>
 #include <vector>
 
 namespace shoal::solvers {
@@ -13,19 +12,24 @@ namespace {
 
 constexpr double slack = 10.0;  // the backends bound their last step, not the error
 using Vector = Problem::Vector;
-using Matrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, Problem::max_dimension,
-                             Problem::max_dimension>;
-using Columns = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, Problem::max_dimension>;
+using Columns = Eigen::MatrixXd;
 
-/// What holds x back: bounds it lies on and constraints that are about zero.
+/// What holds x back: bounds it lies on, constraints that are about zero, and both sides of
+/// equalities.
 struct Obstacles {
-  Columns normals;               // of the feasible side, one a column
-  std::vector<int> constraints;  // behind each column: its constraint, or -1 for a bound
+  /// Behind a column: a function and its block, or none for a bound.
+  struct Source {
+    const VectorFunction* function = nullptr;
+    int block = 0;
+    double sign = 1.0;
+  };
+  Columns normals;  // of the feasible side, one a column
+  std::vector<Source> sources;
 
-  void add(const Vector& normal, int constraint) {
+  void add(const Eigen::VectorXd& normal, const Source& source) {
     normals.conservativeResize(normal.size(), normals.cols() + 1);
-    normals.col(normals.cols() - 1) = normal;
-    constraints.push_back(constraint);
+    normals.col(normals.cols() - 1) = source.sign * normal;
+    sources.push_back(source);
   }
 };
 
@@ -34,21 +38,29 @@ Obstacles obstacles_at(const Problem& problem, const Vector& x, double reach) {
   const Eigen::Index n = x.size();
   found.normals.resize(n, 0);
   for (Eigen::Index i = 0; problem.lower && i < n; ++i) {
-    if (x[i] - (*problem.lower)[i] <= reach) found.add(Vector::Unit(n, i), -1);
-    if ((*problem.upper)[i] - x[i] <= reach) found.add(-Vector::Unit(n, i), -1);
+    if (x[i] - (*problem.lower)[i] <= reach) found.add(Eigen::VectorXd::Unit(n, i), {});
+    if ((*problem.upper)[i] - x[i] <= reach) found.add(-Eigen::VectorXd::Unit(n, i), {});
   }
-  for (int k = 0; problem.constraints && k < problem.constraints->blocks(); ++k) {
-    double value = 0.0;
-    Vector normal(n);
-    problem.constraints->evaluate(k, x.data(), &value, normal.data(), nullptr);
-    if (value <= reach * normal.norm()) found.add(normal, k);
-  }
+  const auto visit = [&](const VectorFunction* function, auto active) {
+    for (int k = 0; function && k < function->blocks(); ++k) {
+      double value = 0.0;
+      Eigen::VectorXd normal(n);
+      function->evaluate(k, x.data(), &value, normal.data(), nullptr);
+      active(k, value, normal);
+    }
+  };
+  visit(problem.constraints.get(), [&](int k, double value, const Eigen::VectorXd& normal) {
+    if (value <= reach * normal.norm()) found.add(normal, {problem.constraints.get(), k});
+  });
+  visit(problem.equalities.get(), [&](int k, double, const Eigen::VectorXd& normal) {
+    for (const double sign : {1.0, -1.0}) found.add(normal, {problem.equalities.get(), k, sign});
+  });
   return found;
 }
 
 /// The multipliers (at least zero) that leave the least of the slope: Lawson and Hanson 1974,
 /// Solving least squares problems, ch. 23.
-Eigen::VectorXd multipliers(const Columns& normals, const Vector& slope) {
+Eigen::VectorXd multipliers(const Columns& normals, const Eigen::VectorXd& slope) {
   const Eigen::Index count = normals.cols();
   Eigen::VectorXd best = Eigen::VectorXd::Zero(count);
   std::vector<Eigen::Index> used;
@@ -92,25 +104,26 @@ Eigen::VectorXd multipliers(const Columns& normals, const Vector& slope) {
   return best;
 }
 
-template <int N>
-using Part = std::conditional_t<N == Eigen::Dynamic, Vector, Eigen::Matrix<double, N, 1>>;
-template <int N>
-using Square = std::conditional_t<N == Eigen::Dynamic, Matrix, Eigen::Matrix<double, N, N>>;
+/// Of N unknowns, or of any number up to Max.
+template <int N, int Max>
+using Part = Eigen::Matrix<double, N, 1, 0, Max, 1>;
+template <int N, int Max>
+using Square = Eigen::Matrix<double, N, N, 0, Max, Max>;
 
 /// Whether Newton's step is short, and nothing leads down from here. Directions without a bend have
 /// no such step: there the slope must be negligible.
-template <int N>
-bool lowest_around(const Part<N>& slope, const Square<N>& curvature, double longest,
+template <int N, int Max>
+bool lowest_around(const Part<N, Max>& slope, const Square<N, Max>& curvature, double longest,
                    double steepest) {
   constexpr double flat = 1e-6;
-  const Eigen::LLT<Square<N>> factor(curvature);  // the usual case, and fast
+  const Eigen::LLT<Square<N, Max>> factor(curvature);  // the usual case, and fast
   if (factor.info() == Eigen::Success) {
-    const Part<N> step = factor.solve(slope);
+    const Part<N, Max> step = factor.solve(slope);
     if (step.norm() <= longest) return true;
   }
-  const Eigen::SelfAdjointEigenSolver<Square<N>> eigen(curvature);
-  const Part<N>& bends = eigen.eigenvalues();
-  const Part<N> along = eigen.eigenvectors().transpose() * slope;
+  const Eigen::SelfAdjointEigenSolver<Square<N, Max>> eigen(curvature);
+  const Part<N, Max>& bends = eigen.eigenvalues();
+  const Part<N, Max> along = eigen.eigenvectors().transpose() * slope;
   const double largest = bends.cwiseAbs().maxCoeff();
   double squared = 0.0;
   for (Eigen::Index i = 0; i < bends.size(); ++i) {
@@ -124,38 +137,22 @@ bool lowest_around(const Part<N>& slope, const Square<N>& curvature, double long
   return std::sqrt(squared) <= longest;
 }
 
-}  // namespace
-
-double bounds_violation(const Problem& problem, const Vector& x) {
-  if (!problem.lower) return 0.0;
-  return std::max({0.0, (*problem.lower - x).maxCoeff(), (x - *problem.upper).maxCoeff()});
-}
-
-double constraint_violation(const Problem& problem, const Vector& x) {
-  double worst = 0.0;
-  for (int k = 0; problem.constraints && k < problem.constraints->blocks(); ++k) {
-    double value = 0.0;
-    problem.constraints->evaluate(k, x.data(), &value, nullptr, nullptr);
-    if (!(value >= -worst)) worst = -value;  // NaN, too
-  }
-  return worst;
-}
-
-bool is_local_minimum(const Problem& problem, const Vector& x, double x_tolerance_m,
-                      double steepest) {
-  const double longest = slack * x_tolerance_m;
-  Vector slope(x.size());
-  Matrix curvature(x.size(), x.size());
+/// Of at most Max unknowns.
+template <int Max>
+bool is_minimum(const Problem& problem, const Vector& x, double longest, double steepest) {
+  constexpr int N = Eigen::Dynamic;
+  Part<N, Max> slope(x.size());
+  Square<N, Max> curvature(x.size(), x.size());
   problem.evaluate(x.data(), slope.data(), curvature.data());
   if (!slope.allFinite() || !curvature.allFinite()) return false;
-  if (!problem.lower && !problem.constraints) {
+  if (!problem.lower && !problem.constrained()) {
     switch (x.size()) {  // the usual case at every ping
       case 2:
-        return lowest_around<2>(slope, curvature, longest, steepest);
+        return lowest_around<2, 2>(slope, curvature, longest, steepest);
       case 3:
-        return lowest_around<3>(slope, curvature, longest, steepest);
+        return lowest_around<3, 3>(slope, curvature, longest, steepest);
       default:
-        return lowest_around<Eigen::Dynamic>(slope, curvature, longest, steepest);
+        return lowest_around<N, Max>(slope, curvature, longest, steepest);
     }
   }
 
@@ -166,23 +163,57 @@ bool is_local_minimum(const Problem& problem, const Vector& x, double x_toleranc
     if (!(pressure[k] > 0.0)) continue;
     pressing.push_back(k);
     slope -= pressure[k] * obstacles.normals.col(k);
-    const int constraint = obstacles.constraints[static_cast<std::size_t>(k)];
-    if (constraint < 0) continue;
+    const Obstacles::Source& source = obstacles.sources[static_cast<std::size_t>(k)];
+    if (!source.function) continue;
     double value = 0.0;
-    Matrix bend(x.size(), x.size());
-    problem.constraints->evaluate(constraint, x.data(), &value, nullptr, bend.data());
-    curvature -= pressure[k] * bend;
+    Square<N, Max> bend(x.size(), x.size());
+    source.function->evaluate(source.block, x.data(), &value, nullptr, bend.data());
+    curvature -= pressure[k] * source.sign * bend;
   }
-  if (pressing.empty()) {
-    return lowest_around<Eigen::Dynamic>(slope, curvature, longest, steepest);
+  // Equalities hold it back also where nothing presses against them.
+  for (Eigen::Index k = 0; k < pressure.size(); ++k) {
+    const bool equal =
+        obstacles.sources[static_cast<std::size_t>(k)].function == problem.equalities.get();
+    if (problem.equalities && equal && !(pressure[k] > 0.0)) pressing.push_back(k);
   }
+  if (pressing.empty()) return lowest_around<N, Max>(slope, curvature, longest, steepest);
   const Eigen::MatrixXd held = obstacles.normals(Eigen::all, pressing);
   const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(held);
   const Eigen::MatrixXd basis = qr.householderQ() * Eigen::MatrixXd::Identity(x.size(), x.size());
   const Eigen::MatrixXd surface = basis.rightCols(x.size() - qr.rank());
   if (surface.cols() == 0) return true;  // held in every direction
-  return lowest_around<Eigen::Dynamic>(
-      surface.transpose() * slope, surface.transpose() * curvature * surface, longest, steepest);
+  return lowest_around<N, Max>(surface.transpose() * slope,
+                               surface.transpose() * curvature * surface, longest, steepest);
+}
+
+}  // namespace
+
+double bounds_violation(const Problem& problem, const Eigen::Ref<const Eigen::VectorXd>& x) {
+  if (!problem.lower) return 0.0;
+  return std::max({0.0, (*problem.lower - x).maxCoeff(), (x - *problem.upper).maxCoeff()});
+}
+
+double constraint_violation(const Problem& problem, const Eigen::Ref<const Eigen::VectorXd>& x) {
+  double worst = 0.0;
+  for (int k = 0; problem.constraints && k < problem.constraints->blocks(); ++k) {
+    double value = 0.0;
+    problem.constraints->evaluate(k, x.data(), &value, nullptr, nullptr);
+    if (!(value >= -worst)) worst = -value;  // NaN, too
+  }
+  for (int k = 0; problem.equalities && k < problem.equalities->blocks(); ++k) {
+    double value = 0.0;
+    problem.equalities->evaluate(k, x.data(), &value, nullptr, nullptr);
+    if (!(std::abs(value) <= worst)) worst = std::abs(value);
+  }
+  return worst;
+}
+
+bool is_local_minimum(const Problem& problem, const Vector& x, double x_tolerance_m,
+                      double steepest) {
+  const double longest = slack * x_tolerance_m;
+  constexpr int few = Unknowns::in_place;
+  return x.size() <= few ? is_minimum<few>(problem, x, longest, steepest)
+                         : is_minimum<Eigen::Dynamic>(problem, x, longest, steepest);
 }
 
 }  // namespace shoal::solvers

@@ -12,10 +12,10 @@ inline constexpr double negligible_bend = 1e-4;
 inline constexpr double bend_of_rounding = 1e-10;
 
 /// How far a point is outside the bounds, m.
-double bounds_violation(const Problem& problem, const Problem::Vector& x);
+double bounds_violation(const Problem& problem, const Eigen::Ref<const Eigen::VectorXd>& x);
 
-/// How far the worst constraint is below zero, in its own unit.
-double constraint_violation(const Problem& problem, const Problem::Vector& x);
+/// How far the worst constraint is below zero, or the worst equality from it, in its own unit.
+double constraint_violation(const Problem& problem, const Eigen::Ref<const Eigen::VectorXd>& x);
 
 /// Our own check of an answer: whether nothing is to be gained near x but by leaving the bounds or
 /// breaking a constraint.

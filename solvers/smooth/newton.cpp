@@ -39,6 +39,9 @@ struct Point {
   Vec<N> slope;
   Mat<N> curvature;
 
+  explicit Point(const Vec<N>& place)
+      : x(place), slope(place.size()), curvature(place.size(), place.size()) {}
+
   Attempt::Outcome evaluate(Attempt& attempt) {
     return attempt.evaluate(x.data(), cost, slope.data(), curvature.data());
   }
@@ -88,9 +91,9 @@ Vec<N> step_down(const Vec<N>& slope, const Mat<N>& curvature, double radius, do
   return eigen.eigenvectors() * p;
 }
 
-/// A minimum within N free unknowns: a trust region about Newton's method on exact derivatives,
-/// with bounds by fixing the unknowns that press against theirs (Bertsekas 1982, Projected Newton
-/// methods).
+/// A minimum within N free unknowns (or any number, if that is Dynamic): a trust region about
+/// Newton's method on exact derivatives, with bounds by fixing the unknowns that press against
+/// theirs (Bertsekas 1982, Projected Newton methods).
 template <int N>
 class Descent {
  public:
@@ -102,8 +105,7 @@ class Descent {
   }
 
   Solution run() {
-    Point<N> here;
-    here.x = attempt_.start();
+    Point<N> here(attempt_.start());
     if (here.evaluate(attempt_) != Attempt::Outcome::fine) return attempt_.finish(0, "no start");
     double radius = options_.first_radius_m;
     // Shorter trials than this learn nothing from their costs.
@@ -125,8 +127,7 @@ class Descent {
         continue;
       }
 
-      Point<N> there;
-      there.x = here.x + step;
+      Point<N> there(here.x + step);
       const Attempt::Outcome outcome = there.evaluate(attempt_);
       if (outcome == Attempt::Outcome::stop) break;
       const double gain = here.cost - there.cost;
@@ -147,8 +148,8 @@ class Descent {
   Vec<N> step_inside_bounds(const Point<N>& here, double radius) const {
     Vec<N> slope = here.slope;
     Mat<N> curvature = here.curvature;
-    bool held[N];
-    for (int i = 0; i < N; ++i) {
+    Eigen::Array<bool, N, 1> held(slope.size());
+    for (Eigen::Index i = 0; i < slope.size(); ++i) {
       held[i] = (here.x[i] <= lower_[i] && slope[i] >= 0.0) ||
                 (here.x[i] >= upper_[i] && slope[i] <= 0.0);
       if (!held[i]) continue;
@@ -159,7 +160,7 @@ class Descent {
     }
     const Vec<N> step = step_down<N>(slope, curvature, radius, options_.x_tolerance_m);
     Vec<N> end = (here.x + step).cwiseMax(lower_).cwiseMin(upper_);
-    for (int i = 0; i < N; ++i) {
+    for (Eigen::Index i = 0; i < slope.size(); ++i) {
       if (held[i]) end[i] = here.x[i];
     }
     return end - here.x;
@@ -183,14 +184,15 @@ class Newton final : public Solver {
         return Descent<1>(attempt, options_).run();
       case 2:
         return Descent<2>(attempt, options_).run();
-      default:
+      case 3:
         return Descent<3>(attempt, options_).run();
+      default:
+        return Descent<Eigen::Dynamic>(attempt, options_).run();
     }
   }
 
   std::optional<std::string> refuses(const Problem& problem) const override {
-    if (problem.constraints) return "takes no constraints";
-    if (problem.dimension() > 3) return "takes at most three unknowns";
+    if (problem.constrained()) return "takes no constraints";
     return std::nullopt;
   }
 
@@ -199,7 +201,7 @@ class Newton final : public Solver {
 };
 
 const Enrol<Solver, NewtonOptions> enrolled{
-    "newton", "trust-region Newton on exact derivatives, for up to three unknowns",
+    "newton", "trust-region Newton on exact derivatives",
     [](const NewtonOptions& options) { return std::make_unique<Newton>(options); }};
 
 }  // namespace

@@ -75,6 +75,7 @@ struct Algorithm {
   const char* summary;
   nlopt_algorithm id;
   bool takes_constraints = false;
+  bool takes_equalities = false;
   int least_unknowns = 1;
 };
 
@@ -120,6 +121,10 @@ class Run {
       nlopt_add_inequality_mconstraint(backend_, static_cast<unsigned>(attempt_.constraints()),
                                        &Run::constraints, this, nullptr);
     }
+    if (algorithm_.takes_equalities && attempt_.equalities() > 0) {
+      nlopt_add_equality_mconstraint(backend_, static_cast<unsigned>(attempt_.equalities()),
+                                     &Run::equalities, this, nullptr);
+    }
     if (id == NLOPT_GD_MLSL_LDS) {
       const Handle local = made(NLOPT_LD_LBFGS, evaluations);
       nlopt_set_local_optimizer(backend_, local.get());
@@ -163,6 +168,17 @@ class Run {
     }
   }
 
+  static void equalities(unsigned count, double* values, unsigned unknowns, const double* y,
+                         double* gradients, void* self) {
+    Run& run = *static_cast<Run*>(self);
+    for (unsigned k = 0; k < count; ++k) {
+      double* gradient = gradients ? gradients + std::size_t{k} * unknowns : nullptr;
+      const int which = run.attempt_.constraints() + static_cast<int>(k);
+      const auto outcome = run.attempt_.constrain(which, y, values[k], gradient);
+      if (outcome != Attempt::Outcome::fine) values[k] = run.substitute(outcome, gradient);
+    }
+  }
+
   // Where there is no cost, a high one sends the methods elsewhere; the judgement does not forget.
   // It has to be finite: on infinities COBYLA may circle in its linear model without a call back.
   double substitute(Attempt::Outcome outcome, double* gradient) {
@@ -193,6 +209,7 @@ class Nlopt final : public Solver {
 
   std::optional<std::string> refuses(const Problem& problem) const override {
     if (problem.constraints && !algorithm_.takes_constraints) return "takes no constraints";
+    if (problem.equalities && !algorithm_.takes_equalities) return "takes no equalities";
     if (searches_a_box<SomeOptions> && !(problem.lower && problem.upper)) {
       return "needs bounds: it searches the whole box";
     }
@@ -233,7 +250,8 @@ const bool enrolled = [] {
   enrol<LocalOptions>({.name = "nlopt.slsqp",
                        .summary = "NLopt: sequential quadratic programming",
                        .id = NLOPT_LD_SLSQP,
-                       .takes_constraints = true});
+                       .takes_constraints = true,
+                       .takes_equalities = true});
   enrol<LocalOptions>({.name = "nlopt.mma",
                        .summary = "NLopt: method of moving asymptotes",
                        .id = NLOPT_LD_MMA,
@@ -254,7 +272,8 @@ const bool enrolled = [] {
   enrol<ProbingOptions>({.name = "nlopt.cobyla",
                          .summary = "NLopt: linear models without derivatives",
                          .id = NLOPT_LN_COBYLA,
-                         .takes_constraints = true});
+                         .takes_constraints = true,
+                         .takes_equalities = true});
   enrol<ProbingOptions>({.name = "nlopt.neldermead",
                          .summary = "NLopt: Nelder-Mead simplex",
                          .id = NLOPT_LN_NELDERMEAD});
@@ -275,7 +294,8 @@ const bool enrolled = [] {
       {.name = "nlopt.isres",
        .summary = "NLopt: evolution strategy with stochastic ranking, in a box",
        .id = NLOPT_GN_ISRES,
-       .takes_constraints = true});
+       .takes_constraints = true,
+       .takes_equalities = true});
   enrol<LinkageOptions>({.name = "nlopt.mlsl",
                          .summary = "NLopt: L-BFGS from low-discrepancy starts, in a box",
                          .id = NLOPT_GD_MLSL_LDS});

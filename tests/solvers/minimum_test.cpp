@@ -109,6 +109,22 @@ TEST(Minimum, LiesOnACurvedConstraint) {
   EXPECT_FALSE(is_minimum(inside, Vector2d(-1, 0)));  // along the circle it goes on
 }
 
+TEST(Minimum, LiesOnAnEquality) {
+  Problem circle = posed([](const auto* x) { return x[0] + x[1]; });
+  circle.equalities = differentiated_blocks<2>(UnitDisc{});
+  const double h = std::sqrt(0.5);
+  EXPECT_TRUE(is_minimum(circle, Vector2d(-h, -h)));
+  EXPECT_FALSE(is_minimum(circle, Vector2d(h, h)));  // a summit along the circle
+  EXPECT_FALSE(is_minimum(circle, Vector2d(-1, 0)));
+  // Where the cost has no slope, the equality still leaves only its own directions: across it, the
+  // cost falls.
+  Problem ridge = posed([](const auto* x) { return x[1] * x[1] - (x[0] + 1.0) * (x[0] + 1.0); });
+  ridge.equalities = differentiated_blocks<2>(UnitDisc{});
+  EXPECT_TRUE(is_minimum(ridge, Vector2d(-1, 0)));
+  ridge.equalities = nullptr;
+  EXPECT_FALSE(is_minimum(ridge, Vector2d(-1, 0)));
+}
+
 // The cost alone curves upwards here; along the circle it falls away from the foot point behind it.
 TEST(Minimum, CountsTheBendOfTheConstraint) {
   Problem outside = posed([](const auto* x) { return (x[0] - 0.5) * (x[0] - 0.5) + x[1] * x[1]; });
@@ -136,6 +152,10 @@ TEST(Violation, IsTheWorstOfItsKind) {
   EXPECT_EQ(constraint_violation(problem, Vector2d(5, 5)), 0.0);
   problem.constraints = differentiated_blocks<2>(UnitDisc{});
   EXPECT_EQ(constraint_violation(problem, Vector2d(2, 0)), 3.0);
+  EXPECT_TRUE(std::isnan(constraint_violation(problem, Vector2d(NAN, 0))));
+  problem.equalities = differentiated_blocks<2>(UnitDisc{});
+  EXPECT_EQ(constraint_violation(problem, Vector2d(0, 0)), 1.0) << "inside the disc, off its edge";
+  EXPECT_EQ(constraint_violation(problem, Vector2d(0, 1)), 0.0);
   EXPECT_TRUE(std::isnan(constraint_violation(problem, Vector2d(NAN, 0))));
 }
 

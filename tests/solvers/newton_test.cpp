@@ -174,11 +174,22 @@ TEST(Newton, GoesOnWithShorterStepsWhereTheCostIsNotFinite) {
   EXPECT_NEAR((Vector2d(solution.x) - Vector2d(1, 0)).norm(), 0.0, 1e-4);
 }
 
+/// x >= 0.
+struct Above {
+  static constexpr int block_size = 1;
+  int blocks() const { return 1; }
+  template <class T>
+  void operator()(int, const T* x, T* g) const {
+    g[0] = x[0];
+  }
+};
+
 TEST(Newton, SaysWhatItDoesNotTake) {
-  const auto sum = [](const auto* x) { return x[0] * x[0] + x[3] * x[3]; };
-  const Problem four(Problem::Vector::Zero(4), differentiated<4>(sum));
-  EXPECT_EQ(newton()->refuses(four).value_or(""), "takes at most three unknowns");
-  EXPECT_EQ(name_of(newton()->solve(four).status), "bad_input");
+  Problem problem(Vector2d(0, 0),
+                  differentiated<2>([](const auto* x) { return x[0] * x[0] + x[1] * x[1]; }));
+  problem.constraints = differentiated_blocks<2>(Above{});
+  EXPECT_EQ(newton()->refuses(problem).value_or(""), "takes no constraints");
+  EXPECT_EQ(name_of(newton()->solve(problem).status), "bad_input");
 }
 
 TEST(Newton, RefusesAFirstStepLongerThanTheLongest) {

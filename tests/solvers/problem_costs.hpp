@@ -309,6 +309,54 @@ struct RosenSuzukiConstraints {
   }
 };
 
+struct HockSchittkowski6 {
+  template <class T>
+  T operator()(const T* x) const {
+    return (1.0 - x[0]) * (1.0 - x[0]);
+  }
+};
+struct OnAParabola {
+  static constexpr int block_size = 1;
+  int blocks() const { return 1; }
+  template <class T>
+  void operator()(int, const T* x, T* h) const {
+    h[0] = 10.0 * (x[1] - x[0] * x[0]);
+  }
+};
+
+struct HockSchittkowski28 {
+  template <class T>
+  T operator()(const T* x) const {
+    const T a = x[0] + x[1], b = x[1] + x[2];
+    return a * a + b * b;
+  }
+};
+struct OnAPlane {
+  static constexpr int block_size = 1;
+  int blocks() const { return 1; }
+  template <class T>
+  void operator()(int, const T* x, T* h) const {
+    h[0] = x[0] + 2.0 * x[1] + 3.0 * x[2] - 1.0;
+  }
+};
+
+struct HockSchittkowski40 {
+  template <class T>
+  T operator()(const T* x) const {
+    return -x[0] * x[1] * x[2] * x[3];
+  }
+};
+struct ThreeEqualities {
+  static constexpr int block_size = 1;
+  int blocks() const { return 3; }
+  template <class T>
+  void operator()(int i, const T* x, T* h) const {
+    if (i == 0) h[0] = x[0] * x[0] * x[0] + x[1] * x[1] - 1.0;
+    if (i == 1) h[0] = x[0] * x[0] * x[3] - x[2];
+    if (i == 2) h[0] = x[3] * x[3] - x[1];
+  }
+};
+
 /// Rypkema 2015, eq. 3.3 and 3.7: the pair potential to each neighbour, lowest at s = 300 m, and a
 /// faint pull to the centroid of the neighbours.
 template <std::size_t N>

@@ -50,6 +50,12 @@ Problem constrained(Problem problem, const Constraints& constraints) {
   return problem;
 }
 
+template <int N, class Equalities>
+Problem equal(Problem problem, const Equalities& equalities) {
+  problem.equalities = differentiated_blocks<N>(equalities);
+  return problem;
+}
+
 KnownProblem known(std::string name, std::string source, Problem problem, double best_known,
                    std::vector<Vector> minimisers) {
   problem.best_known = best_known;
@@ -192,6 +198,22 @@ void add_constrained(std::vector<KnownProblem>& all) {
             constrained<4>(Problem(Vector4d(0.0, 0.0, 0.0, 0.0), differentiated<4>(RosenSuzuki{})),
                            RosenSuzukiConstraints{}),
             -44.0, {Vector4d(0.0, 1.0, 2.0, -1.0)}));
+  all.push_back(known(
+      "hock_schittkowski_6", "HS 6: an equality",
+      equal<2>(Problem(Vector2d(-1.2, 1.0), differentiated<2>(HockSchittkowski6{})), OnAParabola{}),
+      0.0, {Vector2d(1.0, 1.0)}));
+  all.push_back(
+      known("hock_schittkowski_28", "HS 28: a linear equality",
+            equal<3>(Problem(Vector3d(-4.0, 1.0, 1.0), differentiated<3>(HockSchittkowski28{})),
+                     OnAPlane{}),
+            0.0, {Vector3d(0.5, -0.5, 0.5)}));
+  const double a = std::pow(2.0, -1.0 / 3.0), b = std::sqrt(0.5);
+  const double c = std::pow(2.0, -11.0 / 12.0), d = std::pow(2.0, -0.25);
+  all.push_back(
+      known("hock_schittkowski_40", "HS 40: three equalities",
+            equal<4>(Problem(Vector4d(0.8, 0.8, 0.8, 0.8), differentiated<4>(HockSchittkowski40{})),
+                     ThreeEqualities{}),
+            -0.25, {Vector4d(a, b, c, d), Vector4d(a, b, -c, -d)}));
   // The place lies 50 m from the obstacle, in the direction (0.6, 0.8); 100 m are to be kept.
   all.push_back(
       known("place_beside_an_obstacle", "ours: as near to a place as an obstacle allows",

@@ -62,6 +62,9 @@ double least_constraint(const Problem& problem, const Vector& x) {
   for (int b = 0; problem.constraints && b < problem.constraints->blocks(); ++b) {
     least = std::min(least, block_at(*problem.constraints, b, x).values.minCoeff());
   }
+  for (int b = 0; problem.equalities && b < problem.equalities->blocks(); ++b) {
+    least = std::min(least, -block_at(*problem.equalities, b, x).values.cwiseAbs().maxCoeff());
+  }
   return least;
 }
 
@@ -148,7 +151,7 @@ TEST_P(KnownProblems, CostWhatIsStatedAtEveryMinimiserAndMoreAtTheStart) {
 }
 
 TEST_P(KnownProblems, AreEvaluatedWithoutAllocating) {
-  constexpr int n = Problem::max_dimension;
+  constexpr int n = Unknowns::in_place;
   double slope[n], curvature[n * n];
   const std::size_t before = shoal::tests::allocations();
   for (int k = 0; k < 10; ++k) problem.evaluate(problem.start.data(), slope, curvature);
@@ -176,6 +179,11 @@ double kkt_residual(const Problem& problem, const Vector& x) {
   for (int b = 0; problem.constraints && b < problem.constraints->blocks(); ++b) {
     const Block g = block_at(*problem.constraints, b, x);
     if (g.values[0] < 1e-9 * (1.0 + x.squaredNorm())) normals.emplace_back(g.jacobian.row(0));
+  }
+  for (int b = 0; problem.equalities && b < problem.equalities->blocks(); ++b) {
+    const VectorXd normal = block_at(*problem.equalities, b, x).jacobian.row(0);
+    normals.push_back(normal);
+    normals.push_back(-normal);
   }
   double least = slope.norm();
   for (std::size_t chosen = 1; chosen < (std::size_t{1} << normals.size()); ++chosen) {
@@ -275,6 +283,7 @@ TEST_P(KnownProblems, HaveTheDerivativesThatDifferencesShow) {
 TEST_P(ProblemsOfManyFunctions, HaveTheDerivativesThatDifferencesShow) {
   std::vector<const VectorFunction*> functions;
   if (problem.constraints) functions.push_back(problem.constraints.get());
+  if (problem.equalities) functions.push_back(problem.equalities.get());
   if (problem.least_squares) functions.push_back(problem.least_squares->residuals.get());
   for (const VectorFunction* function : functions) {
     for (const Vector& x : places_of(known)) {
@@ -325,7 +334,7 @@ INSTANTIATE_TEST_SUITE_P(Set, ProblemsWithHigherMinima, names_where([](const Kno
                          }),
                          its_name);
 INSTANTIATE_TEST_SUITE_P(Set, ProblemsOfManyFunctions, names_where([](const KnownProblem& known) {
-                           return known.problem.constraints || known.problem.least_squares;
+                           return known.problem.constrained() || known.problem.least_squares;
                          }),
                          its_name);
 INSTANTIATE_TEST_SUITE_P(Set, SumsOfLosses, names_where([](const KnownProblem& known) {
@@ -336,7 +345,7 @@ INSTANTIATE_TEST_SUITE_P(Set, SumsOfLosses, names_where([](const KnownProblem& k
 TEST(KnownProblemSet, HoldsEveryKindOfProblemUnderANameOfItsOwn) {
   std::set<std::string> names;
   std::set<int> dimensions;
-  int losses = 0, residuals = 0, constraints = 0, bounds = 0, fixed = 0;
+  int losses = 0, residuals = 0, constraints = 0, equalities = 0, bounds = 0, fixed = 0;
   for (const KnownProblem& known : known_problems()) {
     const Problem& problem = known.problem;
     names.insert(known.name);
@@ -346,6 +355,7 @@ TEST(KnownProblemSet, HoldsEveryKindOfProblemUnderANameOfItsOwn) {
     residuals += problem.least_squares != nullptr;
     losses += problem.least_squares && problem.least_squares->loss;
     constraints += problem.constraints != nullptr;
+    equalities += problem.equalities != nullptr;
     bounds += problem.lower.has_value();
     fixed += problem.lower && (*problem.upper - *problem.lower).minCoeff() == 0.0;
   }
@@ -355,6 +365,7 @@ TEST(KnownProblemSet, HoldsEveryKindOfProblemUnderANameOfItsOwn) {
   EXPECT_GE(residuals, 10);
   EXPECT_GE(losses, 3);
   EXPECT_GE(constraints, 5);
+  EXPECT_GE(equalities, 3);
   EXPECT_GE(bounds, 6);
   EXPECT_EQ(fixed, 1);
   EXPECT_THROW(known_problem("rosenbrok"), std::invalid_argument);

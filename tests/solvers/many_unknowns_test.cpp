@@ -1,0 +1,168 @@
+// Problems of more unknowns than are held in place: the layout of a whole swarm.
+
+#include <gtest/gtest.h>
+
+#include <memory>
+#include <random>
+
+#include "shoal/solvers/least_squares.hpp"
+#include "shoal/solvers/solver.hpp"
+#include "tests/support/allocation_count.hpp"
+#include "tests/support/test_name.hpp"
+
+namespace shoal::solvers {
+namespace {
+
+using Eigen::Vector2d;
+
+TEST(Unknowns, AreHeldInPlaceIfTheyAreFew) {
+  const std::size_t before = shoal::tests::allocations();
+  Unknowns few = Eigen::Vector3d(1, 2, 3);
+  Unknowns copy = few;
+  copy[1] = 7;
+  few = 2.0 * few - copy;
+  EXPECT_EQ(shoal::tests::allocations() - before, 0u);
+  EXPECT_EQ(few, Eigen::Vector3d(1, -3, 3));
+}
+
+TEST(Unknowns, KeepTheirElementsWhateverTheirNumber) {
+  for (const int n : {0, 1, 6, 7, 500}) {
+    const Eigen::VectorXd numbers = Eigen::VectorXd::LinSpaced(n, 1.0, 2.0);
+    Unknowns one = numbers;
+    Unknowns copy(one), moved(std::move(copy));
+    EXPECT_EQ(one, numbers);
+    EXPECT_EQ(moved, numbers);
+    Unknowns other(3);
+    other = one;
+    EXPECT_EQ(other, numbers);
+    other = Unknowns(Eigen::Vector2d(4, 5));
+    EXPECT_EQ(other, Eigen::Vector2d(4, 5));
+    other = std::move(one);
+    EXPECT_EQ(other, numbers);
+    const Unknowns& same = other;
+    other = same;
+    EXPECT_EQ(other, numbers);
+  }
+}
+
+/// How far distances between vehicles are from those of their slots, and vehicles from where they
+/// were heard. Unknowns: all places, east and north in turn (m).
+class Layout final : public VectorFunction {
+ public:
+  explicit Layout(std::vector<Vector2d> slots, std::vector<Vector2d> heard)
+      : slots_(std::move(slots)), heard_(std::move(heard)) {
+    for (int i = 0; i < vehicles(); ++i) {
+      for (int j = 0; j < i; ++j) {
+        if ((slot(i) - slot(j)).norm() < 450.0) pairs_.emplace_back(i, j);
+      }
+    }
+  }
+
+  int vehicles() const { return static_cast<int>(slots_.size()); }
+  int pairs() const { return static_cast<int>(pairs_.size()); }
+  int blocks() const override { return pairs() + vehicles(); }
+  int block_size() const override { return 2; }
+
+  void evaluate(int block, const double* x, double* values, double* jacobian,
+                double* hessians) const override {
+    const int n = 2 * vehicles();
+    if (jacobian) std::fill_n(jacobian, 2 * n, 0.0);
+    if (hessians) std::fill_n(hessians, 2 * n * n, 0.0);
+    values[1] = 0.0;
+    if (block >= pairs()) {
+      const int i = block - pairs();
+      for (int k = 0; k < 2; ++k) {
+        values[k] = 0.01 * (x[2 * i + k] - heard_[static_cast<std::size_t>(i)][k]);
+        if (jacobian) jacobian[k * n + 2 * i + k] = 0.01;
+      }
+      return;
+    }
+    const auto [i, j] = pairs_[static_cast<std::size_t>(block)];
+    const Vector2d away(x[2 * i] - x[2 * j], x[2 * i + 1] - x[2 * j + 1]);
+    const double r = away.norm();
+    values[0] = r - (slot(i) - slot(j)).norm();
+    const Vector2d direction = away / r;
+    const Eigen::Matrix2d bend =
+        (Eigen::Matrix2d::Identity() - direction * direction.transpose()) / r;
+    for (int a = 0; a < 2; ++a) {
+      if (jacobian) {
+        jacobian[2 * i + a] = direction[a];
+        jacobian[2 * j + a] = -direction[a];
+      }
+      for (int b = 0; hessians && b < 2; ++b) {
+        hessians[(2 * i + a) * n + 2 * i + b] += bend(a, b);
+        hessians[(2 * j + a) * n + 2 * j + b] += bend(a, b);
+        hessians[(2 * i + a) * n + 2 * j + b] -= bend(a, b);
+        hessians[(2 * j + a) * n + 2 * i + b] -= bend(a, b);
+      }
+    }
+  }
+
+ private:
+  const Vector2d& slot(int i) const { return slots_[static_cast<std::size_t>(i)]; }
+
+  std::vector<Vector2d> slots_, heard_;
+  std::vector<std::pair<int, int>> pairs_;
+};
+
+/// A lattice of 10 x 5 vehicles, heard with an error of 20 m: 100 unknowns.
+Problem layout(std::shared_ptr<const Layout>& residuals) {
+  std::mt19937 generator(3);
+  std::normal_distribution<double> error(0.0, 20.0);
+  std::vector<Vector2d> slots, heard;
+  for (int i = 0; i < 50; ++i) {
+    slots.emplace_back(300.0 * (i % 10), 300.0 * (i / 10));
+    heard.emplace_back(slots.back().x() + error(generator), slots.back().y() + error(generator));
+  }
+  Eigen::VectorXd start(100);
+  for (int i = 0; i < 50; ++i) start.segment<2>(2 * i) = heard[static_cast<std::size_t>(i)];
+  residuals = std::make_shared<const Layout>(slots, heard);
+  return least_squares_problem(start, {residuals, nullptr, {}});
+}
+
+class ManyUnknowns : public testing::TestWithParam<std::string> {
+ protected:
+  Solution solved(const Problem& problem) {
+    Setting options;
+    options.at_or_new("max_evaluations").value = std::int64_t{5000};
+    const auto solver = Registry<Solver>::instance().make(GetParam(), options, "solver");
+    EXPECT_EQ(solver->refuses(problem), std::nullopt);
+    return solver->solve(problem);
+  }
+};
+
+TEST_P(ManyUnknowns, LayOutAWholeSwarm) {
+  std::shared_ptr<const Layout> residuals;
+  const Problem problem = layout(residuals);
+  const Solution solution = solved(problem);
+  EXPECT_EQ(solution.status, Status::converged) << name_of(solution.status);
+  ASSERT_EQ(solution.x.size(), 100);
+  EXPECT_LT(solution.cost, 0.05 * problem.evaluate(problem.start.data()));
+  // Of the same minimum, whatever the solver: distances are those of the lattice within 0.5 m.
+  for (int b = 0; b < residuals->pairs(); ++b) {
+    double miss[2];
+    residuals->evaluate(b, solution.x.data(), miss, nullptr, nullptr);
+    EXPECT_LT(std::abs(miss[0]), 0.5) << b;
+  }
+}
+
+TEST_P(ManyUnknowns, KeepToBoundsThatHoldSomeOfThem) {
+  if (GetParam() == "ceres.lbfgs" || GetParam() == "ceres.bfgs") GTEST_SKIP() << "takes no bounds";
+  std::shared_ptr<const Layout> residuals;
+  Problem problem = layout(residuals);
+  problem.lower = problem.start.array() - 30.0;
+  problem.upper = problem.start.array() + 30.0;
+  for (int k = 0; k < 4; ++k) (*problem.lower)[k] = (*problem.upper)[k] = problem.start[k];
+  const Solution solution = solved(problem);
+  EXPECT_EQ(solution.status, Status::converged) << name_of(solution.status);
+  EXPECT_EQ(solution.x.head(4), problem.start.head(4)) << "two vehicles stay where they are";
+  EXPECT_EQ(solution.violation, 0.0);
+}
+
+INSTANTIATE_TEST_SUITE_P(Solvers, ManyUnknowns,
+                         testing::Values("newton", "ipopt", "ceres.least_squares", "ceres.lbfgs",
+                                         "nlopt.slsqp", "nlopt.lbfgs"),
+                         [](const auto& tested) { return shoal::tests::test_name(tested.param); });
+
+}  // namespace
+}  // namespace shoal::solvers
