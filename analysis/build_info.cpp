@@ -24,13 +24,21 @@ std::vector<std::pair<std::string, std::string>> libraries() {
   return found;
 }
 
-}  // namespace
-
-const BuildInfo& build_info() {
-  static const BuildInfo info{SHOAL_VERSION, std::string(SHOAL_VERSION) + "-" + source_hash,
+BuildInfo& known() {
+  static BuildInfo info{SHOAL_VERSION, std::string(SHOAL_VERSION) + "-" + source_hash,
                               source_commit, source_dirty,
                               compiler(),    libraries()};
   return info;
+}
+
+}  // namespace
+
+const BuildInfo& build_info() {
+  return known();
+}
+
+void add_to_program(const std::string& plugin) {
+  known().program += "+" + plugin;
 }
 
 }  // namespace shoal::analysis

@@ -9,7 +9,8 @@ namespace shoal::analysis {
 /// How this program came to be, for manifests.
 struct BuildInfo {
   std::string version;
-  std::string program;  ///< version and hash of all sources that numbers of trials depend on
+  /// Version and hash of all sources that numbers of trials depend on, and those of plugins.
+  std::string program;
   std::string commit;   ///< of the source tree; "unknown" outside a repository
   bool dirty = false;   ///< whether files differed from that commit when it was built
   std::string compiler;
@@ -17,5 +18,8 @@ struct BuildInfo {
 };
 
 const BuildInfo& build_info();
+
+/// Makes a plugin part of `program`, on which all trials depend.
+void add_to_program(const std::string& plugin);
 
 }  // namespace shoal::analysis

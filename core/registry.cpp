@@ -128,6 +128,27 @@ std::size_t RegistryBase::insert(MemberInfo info) {
   return index;
 }
 
+namespace {
+thread_local EnrolmentWatch* watching = nullptr;
+}  // namespace
+
+EnrolmentWatch::EnrolmentWatch() {
+  watching = this;
+}
+
+EnrolmentWatch::~EnrolmentWatch() {
+  watching = nullptr;
+}
+
+void EnrolmentWatch::enrol(const std::function<void()>& enrolment) {
+  if (!watching) return enrolment();
+  try {
+    enrolment();
+  } catch (const std::exception& error) {
+    if (watching->failure_.empty()) watching->failure_ = error.what();
+  }
+}
+
 std::vector<const RegistryBase*> families() {
   std::vector<const RegistryBase*> sorted = directory();
   std::ranges::sort(sorted, {}, &RegistryBase::family);

@@ -56,6 +56,25 @@ class RegistryBase {
   std::vector<MemberInfo> members_;
 };
 
+/// While it lives, members of this thread that cannot be enrolled are noted instead of throwing:
+/// nothing may be thrown through the loader of a shared library.
+class EnrolmentWatch {
+ public:
+  EnrolmentWatch();
+  ~EnrolmentWatch();
+  EnrolmentWatch(const EnrolmentWatch&) = delete;
+  EnrolmentWatch& operator=(const EnrolmentWatch&) = delete;
+
+  /// What went wrong first; "" if nothing did.
+  const std::string& failure() const { return failure_; }
+
+  /// Enrols, or notes for the watch (if there is one) why it cannot.
+  static void enrol(const std::function<void()>& enrolment);
+
+ private:
+  std::string failure_;
+};
+
 /// All families that something is enrolled in, sorted by name.
 std::vector<const RegistryBase*> families();
 
@@ -112,13 +131,15 @@ struct Enrol {
                       read(declared, table, path);
                       return write_options(schema_of<Declared>(), &declared);
                     }};
-    Registry<Family>::instance().enrol(
-        std::move(info),
-        [maker](const Setting& table, const std::string& path) -> std::unique_ptr<Family> {
-          Declared declared;
-          read(declared, table, path);
-          return maker(declared);
-        });
+    EnrolmentWatch::enrol([&] {
+      Registry<Family>::instance().enrol(
+          std::move(info),
+          [maker](const Setting& table, const std::string& path) -> std::unique_ptr<Family> {
+            Declared declared;
+            read(declared, table, path);
+            return maker(declared);
+          });
+    });
   }
 };
 

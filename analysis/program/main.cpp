@@ -6,11 +6,13 @@
 #include <exception>
 #include <filesystem>
 #include <new>
+#include <string_view>
 #include <system_error>
 #include <thread>
 
 #include "commands.hpp"
 #include "shoal/analysis/evaluation.hpp"
+#include "shoal/analysis/plugins.hpp"
 #include "shoal/analysis/study/trial_outcome.hpp"
 #include "shoal/core/error.hpp"
 #include "shoal/core/message.hpp"
@@ -75,15 +77,39 @@ void require_command(const CLI::App& app, const std::string& word) {
                         CLI::ExitCodes::ExtrasError);
 }
 
+/// Before anything asks what there is: those of the environment, and those before the command.
+/// Returns where the command stands.
+int load_plugins(int argc, char** argv) {
+  shoal::analysis::load_plugins_of_environment();
+  constexpr std::string_view option = "--plugin";
+  int next = 1;
+  for (; next < argc && std::string_view(argv[next]).starts_with(option); ++next) {
+    const std::string_view argument = argv[next];
+    if (argument.starts_with("--plugin=")) {
+      shoal::analysis::load_plugin(argument.substr(option.size() + 1));
+    } else if (argument == option && next + 1 < argc) {
+      shoal::analysis::load_plugin(argv[++next]);
+    }
+  }
+  return next;
+}
+
 int shoal_program(int argc, char** argv) {
   // A limit on the size of files, or a reader that has gone, is an error to report, not a signal.
   std::signal(SIGXFSZ, SIG_IGN);
   std::signal(SIGPIPE, SIG_IGN);
   shoal::solvers::silence_backends();
+  const int first = load_plugins(argc, argv);
 
   CLI::App app{
       "shoal: optimisation research toolkit for formation planning of underwater vehicles"};
   app.set_version_flag("--version", "shoal " SHOAL_VERSION);
+  std::vector<std::string> plugins;  // see load_plugins()
+  app.add_option("--plugin", plugins,
+                 "shared library with members of one's own; before the command, and may be given "
+                 "several times")
+      ->expected(1)
+      ->take_all();
   app.require_subcommand(1);
   std::function<void()> command;
 
@@ -264,7 +290,7 @@ int shoal_program(int argc, char** argv) {
   }
 
   try {
-    if (argc > 1) require_command(app, argv[1]);
+    if (first < argc) require_command(app, argv[first]);
     app.parse(argc, argv);
   } catch (const CLI::Success& success) {
     return app.exit(success);

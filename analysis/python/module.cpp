@@ -1,5 +1,6 @@
 #include "conversions.hpp"
 #include "shoal/analysis/build_info.hpp"
+#include "shoal/analysis/plugins.hpp"
 #include "shoal/core/error.hpp"
 #include "shoal/solvers/solver.hpp"
 
@@ -8,7 +9,6 @@ PYBIND11_MODULE(_shoal, module) {
   using namespace shoal;
   module.doc() = "What the package shoal is made of; import shoal instead.";
   module.attr("version") = analysis::build_info().version;
-  module.attr("program") = analysis::build_info().program;
 
   // The same text as the program prints.
   static py::exception<InputError> input_error(module, "InputError", PyExc_ValueError);
@@ -25,6 +25,16 @@ PYBIND11_MODULE(_shoal, module) {
     }
   });
   solvers::silence_backends();
+
+  analysis::load_plugins_of_environment();
+  module.attr("program") = analysis::build_info().program;
+  module.def(
+      "load_plugin",
+      [module](const std::string& file) {
+        analysis::load_plugin(file);
+        module.attr("program") = analysis::build_info().program;
+      },
+      py::arg("file"));
 
   python::add_catalogue(module);
   python::add_trials(module);

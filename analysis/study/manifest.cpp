@@ -11,6 +11,7 @@
 #include <thread>
 
 #include "shoal/analysis/build_info.hpp"
+#include "shoal/analysis/plugins.hpp"
 #include "shoal/analysis/study/cell_scenarios.hpp"
 #include "shoal/core/text.hpp"
 #include "shoal/core/whole_file.hpp"
@@ -53,8 +54,13 @@ Json program() {
   const BuildInfo& built = build_info();
   Json libraries = Json::object();
   for (const auto& [name, version] : built.libraries) libraries[name] = version;
+  Json plugins = Json::array();
+  for (const Plugin& plugin : loaded_plugins()) {
+    plugins.push_back({{"file", plugin.file.string()}, {"hash", plugin.hash}});
+  }
   return {{"version", built.version}, {"program", built.program},   {"commit", built.commit},
-          {"dirty", built.dirty},     {"compiler", built.compiler}, {"libraries", libraries}};
+          {"dirty", built.dirty},     {"compiler", built.compiler}, {"libraries", libraries},
+          {"plugins", plugins}};
 }
 
 Json read_manifest(const fs::path& folder) {

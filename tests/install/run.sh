@@ -31,6 +31,46 @@ if ldd prefix/bin/shoal | grep -F "$(cd "$build" && pwd)"; then
   exit 1
 fi
 
+# A plugin, out of tree.
+cmake -S "$here/plugin" -B "$work/plugin" -DCMAKE_CXX_COMPILER="$compiler" \
+  -DCMAKE_BUILD_TYPE=Release -DCMAKE_PREFIX_PATH="$work/prefix"
+cmake --build "$work/plugin"
+plugin=$work/plugin/libmine.so
+prefix/bin/shoal --plugin "$plugin" list | grep -c "  my_" | grep -qx 5
+prefix/bin/shoal --plugin "$plugin" describe my_jet | grep -F current.my_jet.width_m
+prefix/bin/shoal --plugin "$plugin" run construction_square --out mine --no-report \
+  --set trial.duration_s=60 --set current.kind=my_jet --set behaviour.kind=my_gathering \
+  --set guidance.kind=my_pursuit
+grep -F my_easting_m mine/summary.json
+grep -F libmine.so- mine/summary.json
+cat >mine.toml <<'STUDY'
+scenario = "construction_square"
+set = { trial.duration_s = 60, behaviour.kind = "attraction_repulsion" }
+replications = 2
+[[factor]]
+key = "behaviour.attraction_repulsion.potential.kind"
+values = ["thesis", "my_spring"]
+[[table]]
+name = "easting"
+caption = "Where the swarm went"
+rows = ["kind"]
+metrics = ["my_easting_m"]
+STUDY
+SHOAL_PLUGINS=$plugin prefix/bin/shoal sweep mine.toml --out study --jobs 2 --no-figures
+grep -F "$plugin" study/manifest.json
+refused() {  # what is said instead of a traceback or a crash
+  local status=0
+  "${@:2}" 2>complaint.txt || status=$?
+  [ "$status" = 2 ] && [ "$(wc -l <complaint.txt)" = 1 ] && grep -F "$1" complaint.txt
+}
+refused 'is no plugin of shoal' prefix/bin/shoal --plugin prefix/lib/libshoal_core.so list
+refused 'cannot read the plugin' prefix/bin/shoal --plugin nowhere.so list
+sed 's/shoal plugin, ABI /shoal plugin, ABI 9/' "$plugin" >foreign.so
+refused 'was built for shoal 9' prefix/bin/shoal --plugin ./foreign.so list
+cp "$plugin" copy.so
+refused 'are called' prefix/bin/shoal --plugin "$plugin" --plugin ./copy.so list
+refused 'no option "my_jet"' prefix/bin/shoal run construction_square --set current.my_jet.width_m=3
+
 # The Python package and the report, where they were installed.
 prefix/bin/shoal run construction_square --set trial.duration_s=60 --out out
 [ -s out/report.html ]
@@ -42,5 +82,18 @@ import shoal
 wanted = json.load(open("out/summary.json"))["metrics"]
 assert shoal.run("construction_square", {"trial.duration_s": 60}).measures == wanted
 print("the installed package runs", shoal.program)
+PYTHON
+  PYTHONPATH=$package PLUGIN=$plugin /usr/bin/python3 -B - <<'PYTHON'
+import json
+import os
+import shoal
+
+shoal.load_plugin(os.environ["PLUGIN"])
+run = shoal.run("construction_square", {"trial.duration_s": 60, "current.kind": "my_jet",
+                                        "behaviour.kind": "my_gathering",
+                                        "guidance.kind": "my_pursuit"})
+assert run.measures == json.load(open("mine/summary.json"))["metrics"]
+assert "my_jet" in shoal.catalogue()["current"]
+assert "libmine.so-" in shoal.program
 PYTHON
 done

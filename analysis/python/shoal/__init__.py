@@ -20,8 +20,21 @@ from ._potentials import Potential, potential
 from ._studies import claims, study_dataset, study_report, sweep, tables, trials, write_tables
 from ._trials import Run, current, run, scenario
 
+from . import _shoal
+
+
+def load_plugin(file):
+    """Makes the members of a plugin known, a shared library that says SHOAL_PLUGIN: to list, run, and
+    sweep, as `shoal --plugin` does. SHOAL_PLUGINS in the environment names some for all processes.
+    Raises InputError if it is none, or was built for another shoal.
+    """
+    global program
+    _shoal.load_plugin(str(file))
+    program = _shoal.program
+
+
 __all__ = ["Command", "InputError", "OwnState", "Ping", "PingFilter", "Plan", "Planner", "Potential", "Problem", "Run",
            "Solution", "SystemError", "Table", "__version__", "catalogue", "claims", "current",
-           "formation_quality", "match", "measures", "options", "posed", "potential", "program",
+           "formation_quality", "load_plugin", "match", "measures", "options", "posed", "potential", "program",
            "register", "run", "scenario", "solve", "study_dataset", "study_report", "sweep", "tables",
            "trials", "write_tables"]

@@ -1,0 +1,20 @@
+// A measure of one's own: how far east the centroid is at the end.
+
+#include <shoal/analysis/measure.hpp>
+
+using namespace shoal;
+using namespace shoal::analysis;
+
+struct MyEasting final : Measure {
+  static void declare(Options<MyEasting>&) {}
+
+  std::vector<Quantity> values() const override {
+    return {{"my_easting_m", "m", "how far east the centroid is at the end"}};
+  }
+  void finish(const scenarios::World& world, Results& results) const override {
+    const auto x = over_survivors(world, [&](std::size_t i) { return world.swarm().x_m[i]; });
+    results.add("my_easting_m", x ? std::optional(x->mean) : std::nullopt);
+  }
+};
+
+const Enrol<Measure, MyEasting> enrolled{"my_easting", "how far east the swarm has gone"};
