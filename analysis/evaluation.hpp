@@ -15,7 +15,7 @@ namespace shoal::analysis {
 ///     struct Squares final : Evaluation {
 ///       std::vector<Column> inputs() const override { return {{"x_m", "m, a length"}}; } ...
 ///     };
-///     const Enrol<Evaluation, Squares> enrolled{"squares", "squares of lengths"};
+///     const Register<Evaluation, Squares> registered{"squares", "squares of lengths"};
 class Evaluation {
  public:
   static constexpr const char* family = "evaluation";

@@ -44,7 +44,7 @@ struct Results {
   const scenarios::Series& earlier_series(std::string_view name) const;
 };
 
-/// Measures something of a trial. One file each; enrolled ones are part of every trial.
+/// Measures something of a trial. One file each; registered ones are part of every trial.
 class Measure : public scenarios::Observer {
  public:
   static constexpr const char* family = "measure";

@@ -58,7 +58,7 @@ void load_plugin(const fs::path& given) {
   if (std::ranges::any_of(loaded(), same)) return;
   const std::string content = content_of(file);
   require_abi(file, content);
-  const EnrolmentWatch watch;
+  const RegistryWatch watch;
   // Global, so that one plugin may build on another.
   const bool there = ::dlopen(file.c_str(), RTLD_NOW | RTLD_GLOBAL) != nullptr;
   const std::string why = there ? watch.failure() : ::dlerror();

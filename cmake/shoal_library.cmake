@@ -19,7 +19,7 @@ target_compile_options(shoal_warnings INTERFACE -Wall -Wextra -Wpedantic -Wshado
 
 # shoal_library(LAYER PUBLIC ... PRIVATE ...): every .cpp of the layer, as a shared library.
 #
-# Shared, because members enrol themselves at start-up: out of a static library the linker would
+# Shared, because members register themselves at start-up: out of a static library the linker would
 # drop every file that nobody calls by name. It also keeps the solvers' libraries out of what a
 # user of shoal links.
 function(shoal_library layer)

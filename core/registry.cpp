@@ -129,21 +129,21 @@ std::size_t RegistryBase::insert(MemberInfo info) {
 }
 
 namespace {
-thread_local EnrolmentWatch* watching = nullptr;
+thread_local RegistryWatch* watching = nullptr;
 }  // namespace
 
-EnrolmentWatch::EnrolmentWatch() {
+RegistryWatch::RegistryWatch() {
   watching = this;
 }
 
-EnrolmentWatch::~EnrolmentWatch() {
+RegistryWatch::~RegistryWatch() {
   watching = nullptr;
 }
 
-void EnrolmentWatch::enrol(const std::function<void()>& enrolment) {
-  if (!watching) return enrolment();
+void RegistryWatch::add(const std::function<void()>& registration) {
+  if (!watching) return registration();
   try {
-    enrolment();
+    registration();
   } catch (const std::exception& error) {
     if (watching->failure_.empty()) watching->failure_ = error.what();
   }

@@ -34,7 +34,7 @@ class RegistryBase {
   const std::string& family() const { return family_; }
   const std::string& meaning() const { return meaning_; }
 
-  /// Sorted by name; enrolment order depends on the linker and must not show.
+  /// Sorted by name; the order of registration depends on the linker and must not show.
   const std::vector<MemberInfo>& members() const { return members_; }
   std::vector<std::string> names() const;
 
@@ -56,26 +56,26 @@ class RegistryBase {
   std::vector<MemberInfo> members_;
 };
 
-/// While it lives, members of this thread that cannot be enrolled are noted instead of throwing:
+/// While it lives, members of this thread that cannot be registered are noted instead of throwing:
 /// nothing may be thrown through the loader of a shared library.
-class EnrolmentWatch {
+class RegistryWatch {
  public:
-  EnrolmentWatch();
-  ~EnrolmentWatch();
-  EnrolmentWatch(const EnrolmentWatch&) = delete;
-  EnrolmentWatch& operator=(const EnrolmentWatch&) = delete;
+  RegistryWatch();
+  ~RegistryWatch();
+  RegistryWatch(const RegistryWatch&) = delete;
+  RegistryWatch& operator=(const RegistryWatch&) = delete;
 
   /// What went wrong first; "" if nothing did.
   const std::string& failure() const { return failure_; }
 
-  /// Enrols, or notes for the watch (if there is one) why it cannot.
-  static void enrol(const std::function<void()>& enrolment);
+  /// Registers, or notes for the watch (if there is one) why it cannot.
+  static void add(const std::function<void()>& registration);
 
  private:
   std::string failure_;
 };
 
-/// All families that something is enrolled in, sorted by name.
+/// All families that something is registered in, sorted by name.
 std::vector<const RegistryBase*> families();
 
 /// The dotted key at which a struct, or what can be chosen in it, first chooses from the family
@@ -93,7 +93,7 @@ class Registry : public RegistryBase {
     return registry;
   }
 
-  void enrol(MemberInfo info, Factory factory) {
+  void add(MemberInfo info, Factory factory) {
     const auto place = static_cast<std::ptrdiff_t>(insert(std::move(info)));
     factories_.insert(factories_.begin() + place, std::move(factory));
   }
@@ -108,19 +108,19 @@ class Registry : public RegistryBase {
   std::vector<Factory> factories_;
 };
 
-/// Enrols a member at start-up:
+/// Registers a member at start-up:
 ///
-///     const Enrol<Behaviour, RigidRegistration> enrolled{"rigid_registration", "..."};
+///     const Register<Behaviour, RigidRegistration> registered{"rigid_registration", "..."};
 ///
 /// `Declared` is a declared struct. It either is the member, or a maker turns it into one.
 template <class Family, class Declared>
-struct Enrol {
-  Enrol(std::string name, std::string summary) requires std::derived_from<Declared, Family>
-      : Enrol(std::move(name), std::move(summary),
-              [](const Declared& member) { return std::make_unique<Declared>(member); }) {}
+struct Register {
+  Register(std::string name, std::string summary) requires std::derived_from<Declared, Family>
+      : Register(std::move(name), std::move(summary),
+                 [](const Declared& member) { return std::make_unique<Declared>(member); }) {}
 
   template <class Maker>
-  Enrol(std::string name, std::string summary, Maker maker) {
+  Register(std::string name, std::string summary, Maker maker) {
     MemberInfo info{std::move(name), std::move(summary), &schema_of<Declared>,
                     [](const Setting& table, const std::string& path) {
                       Declared declared;
@@ -131,8 +131,8 @@ struct Enrol {
                       read(declared, table, path);
                       return write_options(schema_of<Declared>(), &declared);
                     }};
-    EnrolmentWatch::enrol([&] {
-      Registry<Family>::instance().enrol(
+    RegistryWatch::add([&] {
+      Registry<Family>::instance().add(
           std::move(info),
           [maker](const Setting& table, const std::string& path) -> std::unique_ptr<Family> {
             Declared declared;

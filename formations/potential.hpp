@@ -11,7 +11,7 @@
 namespace shoal::formations {
 
 /// A potential between two vehicles as a function of their distance r (m, above 0), lowest at the
-/// separation s (m). A law that is published as a force is enrolled as its integral.
+/// separation s (m). A law that is published as a force is registered as its integral.
 class Potential {
  public:
   static constexpr const char* family = "potential";
@@ -49,11 +49,12 @@ class PotentialOf final : public Potential {
   Law law_;
 };
 
-/// Enrols a potential law: `const EnrolPotential<LennardJones> enrolled{"lennard_jones", "..."};`
+/// Registers a potential law: `const RegisterPotential<LennardJones> registered{"lennard_jones",
+/// "..."};`
 template <class Law>
-struct EnrolPotential : Enrol<Potential, Law> {
-  EnrolPotential(std::string name, std::string summary)
-      : Enrol<Potential, Law>(std::move(name), std::move(summary), [](const Law& law) {
+struct RegisterPotential : Register<Potential, Law> {
+  RegisterPotential(std::string name, std::string summary)
+      : Register<Potential, Law>(std::move(name), std::move(summary), [](const Law& law) {
           return std::make_unique<PotentialOf<Law>>(law);
         }) {}
 };

@@ -78,9 +78,9 @@ struct Between final : ClaimTest {
   }
 };
 
-const Enrol<ClaimTest, Between<false>> average{"between", "an average lies between two numbers"};
-const Enrol<ClaimTest, Between<true>> each{"each_between",
-                                           "in each trial, a number lies between two others"};
+const Register<ClaimTest, Between<false>> average{"between", "an average lies between two numbers"};
+const Register<ClaimTest, Between<true>> each{"each_between",
+                                              "in each trial, a number lies between two others"};
 
 }  // namespace
 }  // namespace shoal::analysis

@@ -43,7 +43,7 @@ struct Consistent final : ClaimTest {
   }
 };
 
-const Enrol<ClaimTest, Consistent> enrolled{
+const Register<ClaimTest, Consistent> registered{
     "consistent", "a number differs little from trial to trial, by its coefficient of variation"};
 
 }  // namespace

@@ -63,7 +63,7 @@ class NearBest final : public ClaimTest {
   Margin margin_;
 };
 
-const Enrol<ClaimTest, NearBestOptions> enrolled{
+const Register<ClaimTest, NearBestOptions> registered{
     "near_best", "no other level of a factor is better by more than a tolerance, seed by seed",
     [](const NearBestOptions& options) { return std::make_unique<NearBest>(options); }};
 

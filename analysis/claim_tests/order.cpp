@@ -43,10 +43,10 @@ class Order final : public ClaimTest {
   double sign_;
 };
 
-const Enrol<ClaimTest, OrderOptions> lower{
+const Register<ClaimTest, OrderOptions> lower{
     "lower", "one level gives less than others by an effect that matters, seed by seed",
     [](const OrderOptions& options) { return std::make_unique<Order>(options, -1.0); }};
-const Enrol<ClaimTest, OrderOptions> higher{
+const Register<ClaimTest, OrderOptions> higher{
     "higher", "one level gives more than others by an effect that matters, seed by seed",
     [](const OrderOptions& options) { return std::make_unique<Order>(options, 1.0); }};
 

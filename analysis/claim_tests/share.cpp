@@ -87,7 +87,7 @@ struct Share final : ClaimTest {
   }
 };
 
-const Enrol<ClaimTest, Share> enrolled{
+const Register<ClaimTest, Share> registered{
     "share", "the share of trials in which a number is so lies between two others"};
 
 }  // namespace

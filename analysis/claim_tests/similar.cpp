@@ -57,7 +57,7 @@ class Similar final : public ClaimTest {
   Margin margin_;
 };
 
-const Enrol<ClaimTest, SimilarOptions> enrolled{
+const Register<ClaimTest, SimilarOptions> registered{
     "similar", "two levels give nearly the same, seed by seed",
     [](const SimilarOptions& options) { return std::make_unique<Similar>(options); }};
 

@@ -74,7 +74,7 @@ class Steadier final : public ClaimTest {
   double ratio_;
 };
 
-const Enrol<ClaimTest, SteadierOptions> enrolled{
+const Register<ClaimTest, SteadierOptions> registered{
     "steadier", "the numbers of one level scatter less over trials than those of others",
     [](const SteadierOptions& options) { return std::make_unique<Steadier>(options); }};
 

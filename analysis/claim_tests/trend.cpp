@@ -71,7 +71,7 @@ class Trend final : public ClaimTest {
   Margin margin_;
 };
 
-const Enrol<ClaimTest, TrendOptions> enrolled{
+const Register<ClaimTest, TrendOptions> registered{
     "trend", "the answer falls or rises along a factor, seed by seed",
     [](const TrendOptions& options) { return std::make_unique<Trend>(options); }};
 

@@ -68,7 +68,7 @@ class Turns final : public ClaimTest {
   Margin margin_;
 };
 
-const Enrol<ClaimTest, TurnsOptions> enrolled{
+const Register<ClaimTest, TurnsOptions> registered{
     "turns", "the answer first falls and then rises along a factor, or the other way round",
     [](const TurnsOptions& options) { return std::make_unique<Turns>(options); }};
 

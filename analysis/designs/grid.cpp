@@ -36,7 +36,7 @@ struct Grid final : Design {
   }
 };
 
-const Enrol<Design, Grid> enrolled{"grid", "every combination of the levels of all factors"};
+const Register<Design, Grid> registered{"grid", "every combination of the levels of all factors"};
 
 }  // namespace
 }  // namespace shoal::analysis

@@ -37,7 +37,7 @@ struct LatinHypercube final : Design {
   }
 };
 
-const Enrol<Design, LatinHypercube> enrolled{
+const Register<Design, LatinHypercube> registered{
     "latin_hypercube",
     "one cell in each of n equal parts of every factor's range (McKay, Beckman and Conover 1979)"};
 

@@ -79,7 +79,7 @@ struct Morris final : Design {
   }
 };
 
-const Enrol<Design, Morris> enrolled{
+const Register<Design, Morris> registered{
     "morris",
     "trajectories that change one factor at a time, for elementary effects (Morris 1991)"};
 

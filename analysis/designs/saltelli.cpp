@@ -49,7 +49,7 @@ struct Saltelli final : Design {
   }
 };
 
-const Enrol<Design, Saltelli> enrolled{
+const Register<Design, Saltelli> registered{
     "saltelli", "the cells that Sobol' indices are estimated from (Saltelli et al. 2010)"};
 
 }  // namespace

@@ -28,7 +28,7 @@ struct Sobol final : Design {
   }
 };
 
-const Enrol<Design, Sobol> enrolled{
+const Register<Design, Sobol> registered{
     "sobol", "points of Sobol' sequence, randomised by a digital shift (Sobol' 1967)"};
 
 }  // namespace

@@ -47,7 +47,7 @@ struct ClampEvaluation final : Evaluation {
   static void declare(Options<ClampEvaluation>&) {}
 };
 
-const Enrol<Evaluation, ClampEvaluation> enrolled{
+const Register<Evaluation, ClampEvaluation> registered{
     "clamp", "a force made admissible (Barisic et al. 2011, Table 3 as corrected)"};
 
 }  // namespace

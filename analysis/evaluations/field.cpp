@@ -67,7 +67,7 @@ struct FieldEvaluation final : Evaluation {
   static void declare(Options<FieldEvaluation>&) {}
 };
 
-const Enrol<Evaluation, FieldEvaluation> enrolled{
+const Register<Evaluation, FieldEvaluation> registered{
     "field", "terms of the virtual potential's force (Barisic et al. 2011, eq. 6-29)"};
 
 }  // namespace

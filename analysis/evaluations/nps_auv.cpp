@@ -62,7 +62,7 @@ struct NpsAuvEvaluation final : Evaluation {
   static void declare(Options<NpsAuvEvaluation>&) {}
 };
 
-const Enrol<Evaluation, NpsAuvEvaluation> enrolled{
+const Register<Evaluation, NpsAuvEvaluation> registered{
     "nps_auv", "the 6-DOF vehicle's derivatives (Barisic et al. 2011, eq. 31-40, Table 1)"};
 
 }  // namespace

@@ -35,7 +35,7 @@ struct ObstacleEvaluation final : Evaluation {
   static void declare(Options<ObstacleEvaluation>&) {}
 };
 
-const Enrol<Evaluation, ObstacleEvaluation> enrolled{
+const Register<Evaluation, ObstacleEvaluation> registered{
     "obstacle", "distance and normal of an obstacle (Barisic et al. 2011, eq. 46-62)"};
 
 }  // namespace

@@ -117,7 +117,7 @@ class Cohesion final : public Measure {
   std::vector<double> x_, y_;
 };
 
-const Enrol<Measure, Cohesion> enrolled{
+const Register<Measure, Cohesion> registered{
     "cohesion", "does the swarm hold together, and how close do vehicles come"};
 
 }  // namespace

@@ -37,8 +37,8 @@ class CurrentSpeed final : public Measure {
   int count_ = 0;
 };
 
-const Enrol<Measure, CurrentSpeed> enrolled{"current_speed",
-                                            "how fast the water moves the vehicles"};
+const Register<Measure, CurrentSpeed> registered{"current_speed",
+                                                 "how fast the water moves the vehicles"};
 
 }  // namespace
 }  // namespace shoal::analysis

@@ -105,7 +105,7 @@ class Disagreement final : public Measure {
   std::vector<double> time_s_, spread_deg_;
 };
 
-const Enrol<Measure, Disagreement> enrolled{
+const Register<Measure, Disagreement> registered{
     "disagreement", "how much vehicles disagree on the rotation of the plan"};
 
 }  // namespace

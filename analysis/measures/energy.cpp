@@ -119,8 +119,8 @@ class EnergyMeasure final : public Measure {
   std::vector<double> spent_wh_;  // of every vehicle at every look
 };
 
-const Enrol<Measure, EnergyMeasure> enrolled{"energy",
-                                             "energy spent by the vehicles that are left"};
+const Register<Measure, EnergyMeasure> registered{"energy",
+                                                  "energy spent by the vehicles that are left"};
 
 }  // namespace
 }  // namespace shoal::analysis

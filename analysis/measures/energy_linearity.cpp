@@ -31,8 +31,8 @@ class EnergyLinearity final : public Measure {
   }
 };
 
-const Enrol<Measure, EnergyLinearity> enrolled{"energy_linearity",
-                                               "how near linear in time the energy is"};
+const Register<Measure, EnergyLinearity> registered{"energy_linearity",
+                                                    "how near linear in time the energy is"};
 
 }  // namespace
 

@@ -101,7 +101,8 @@ class Estimation final : public Measure {
   int looks_ = 0, filtered_ = 0;
 };
 
-const Enrol<Measure, Estimation> enrolled{"estimation", "how well vehicles know their own states"};
+const Register<Measure, Estimation> registered{"estimation",
+                                               "how well vehicles know their own states"};
 
 }  // namespace
 }  // namespace shoal::analysis

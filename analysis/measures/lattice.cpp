@@ -64,8 +64,8 @@ class Lattice final : public Measure {
   }
 };
 
-const Enrol<Measure, Lattice> enrolled{"lattice",
-                                       "is the lattice whole, and are vehicles on its points"};
+const Register<Measure, Lattice> registered{"lattice",
+                                            "is the lattice whole, and are vehicles on its points"};
 
 }  // namespace
 }  // namespace shoal::analysis

@@ -64,7 +64,7 @@ class LeastThrust final : public Measure {
   std::vector<int> vehicles_;
 };
 
-const Enrol<Measure, LeastThrust> enrolled{
+const Register<Measure, LeastThrust> registered{
     "least_thrust", "where in the formation the vehicles are that thrust least"};
 
 }  // namespace

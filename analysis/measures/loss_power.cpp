@@ -66,8 +66,8 @@ class LossPower final : public Measure {
   std::vector<Snapshot> snapshots_;  // of each loss: before, at, after
 };
 
-const Enrol<Measure, LossPower> enrolled{"loss_power",
-                                         "do vehicles spend more when one of them is lost"};
+const Register<Measure, LossPower> registered{"loss_power",
+                                              "do vehicles spend more when one of them is lost"};
 
 }  // namespace
 }  // namespace shoal::analysis

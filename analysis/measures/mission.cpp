@@ -26,7 +26,8 @@ class Mission final : public Measure {
   }
 };
 
-const Enrol<Measure, Mission> enrolled{"mission", "how long the mission lasted, and what ended it"};
+const Register<Measure, Mission> registered{"mission",
+                                            "how long the mission lasted, and what ended it"};
 
 }  // namespace
 }  // namespace shoal::analysis

@@ -94,7 +94,7 @@ class NeighbourEstimates final : public Measure {
   double lag_m_ = 0.0, moving_ = 0.0;
 };
 
-const Enrol<Measure, NeighbourEstimates> enrolled{
+const Register<Measure, NeighbourEstimates> registered{
     "neighbour_estimates", "how well vehicles know where their neighbours are"};
 
 }  // namespace

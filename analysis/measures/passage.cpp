@@ -186,8 +186,8 @@ class Passage final : public Measure {
   History cell_error_, separation_, clearances_;
 };
 
-const Enrol<Measure, Passage> enrolled{"passage",
-                                       "the way to a waypoint, past obstacles, in formation"};
+const Register<Measure, Passage> registered{"passage",
+                                            "the way to a waypoint, past obstacles, in formation"};
 
 }  // namespace
 }  // namespace shoal::analysis

@@ -71,7 +71,8 @@ class Paths final : public Measure {
   TrackLog log_{path_step_m};
 };
 
-const Enrol<Measure, Paths> enrolled{"paths", "how long and straight ways are, and do they cross"};
+const Register<Measure, Paths> registered{"paths",
+                                          "how long and straight ways are, and do they cross"};
 
 }  // namespace
 }  // namespace shoal::analysis

@@ -81,8 +81,8 @@ class Progress final : public Measure {
   std::vector<int> slots_;
 };
 
-const Enrol<Measure, Progress> enrolled{"progress",
-                                        "how far the swarm came, and for how much energy"};
+const Register<Measure, Progress> registered{"progress",
+                                             "how far the swarm came, and for how much energy"};
 
 }  // namespace
 }  // namespace shoal::analysis

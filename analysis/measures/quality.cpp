@@ -129,7 +129,7 @@ class Quality final : public Measure {
   std::optional<double> spent_wh_, straightness_;  ///< until then, or so far
 };
 
-const Enrol<Measure, Quality> enrolled{
+const Register<Measure, Quality> registered{
     "quality", "the formation quality: how far vehicles are from the plan laid onto them"};
 
 }  // namespace

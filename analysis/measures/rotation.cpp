@@ -40,7 +40,7 @@ class Rotation final : public Measure {
   std::optional<double> angle_;
 };
 
-const Enrol<Measure, Rotation> enrolled{
+const Register<Measure, Rotation> registered{
     "rotation", "the turning of the plan laid onto the vehicles, followed through full turns"};
 
 }  // namespace

@@ -54,7 +54,7 @@ class SearchSizeMeasure final : public Measure {
   }
 };
 
-const Enrol<Measure, SearchSizeMeasure> enrolled{
+const Register<Measure, SearchSizeMeasure> registered{
     "search_size", "how large the search of a behaviour is that assigns slots"};
 
 }  // namespace

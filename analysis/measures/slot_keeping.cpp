@@ -142,7 +142,7 @@ class SlotKeepingMeasure final : public Measure {
   std::vector<Eigen::Vector2f> places_;  // instants x vehicles
 };
 
-const Enrol<Measure, SlotKeepingMeasure> enrolled{
+const Register<Measure, SlotKeepingMeasure> registered{
     "slot_keeping", "the quality at full sampling, and vehicles that change their slots"};
 
 }  // namespace

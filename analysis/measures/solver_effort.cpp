@@ -85,7 +85,7 @@ class SolverEffort final : public Measure {
   std::deque<Tally> tallies_;  // stay where they are
 };
 
-const Enrol<Measure, SolverEffort> enrolled{
+const Register<Measure, SolverEffort> registered{
     "solver_effort", "what solvers do for a behaviour, and how often they fail"};
 
 }  // namespace

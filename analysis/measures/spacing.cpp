@@ -64,8 +64,8 @@ class Spacing final : public Measure {
   }
 };
 
-const Enrol<Measure, Spacing> enrolled{"spacing",
-                                       "do vehicles at the edge sit wider than those inside"};
+const Register<Measure, Spacing> registered{"spacing",
+                                            "do vehicles at the edge sit wider than those inside"};
 
 }  // namespace
 }  // namespace shoal::analysis

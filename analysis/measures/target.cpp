@@ -27,7 +27,7 @@ class FirstTarget final : public Measure {
   }
 };
 
-const Enrol<Measure, FirstTarget> enrolled{"target", "where the first vehicle wants to go"};
+const Register<Measure, FirstTarget> registered{"target", "where the first vehicle wants to go"};
 
 }  // namespace
 }  // namespace shoal::analysis

@@ -107,7 +107,8 @@ class Thrust final : public Measure {
   History times_, distances_;
 };
 
-const Enrol<Measure, Thrust> enrolled{"thrust", "shares of time and of distance spent thrusting"};
+const Register<Measure, Thrust> registered{"thrust",
+                                           "shares of time and of distance spent thrusting"};
 
 }  // namespace
 }  // namespace shoal::analysis

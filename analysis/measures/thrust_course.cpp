@@ -52,7 +52,7 @@ class ThrustCourse final : public Measure {
   }
 };
 
-const Enrol<Measure, ThrustCourse> enrolled{
+const Register<Measure, ThrustCourse> registered{
     "thrust_course", "how the shares of time and of distance spent thrusting go"};
 
 }  // namespace

@@ -57,7 +57,7 @@ class Turning final : public Measure {
   std::array<Sum, 2> sums_;
 };
 
-const Enrol<Measure, Turning> enrolled{"turning", "how jagged the tracks are"};
+const Register<Measure, Turning> registered{"turning", "how jagged the tracks are"};
 
 }  // namespace
 }  // namespace shoal::analysis

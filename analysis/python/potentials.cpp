@@ -189,7 +189,7 @@ class PythonPotential final : public Potential {
   double prepared_m_ = 0.0;
 };
 
-const Enrol<Potential, PythonFunction> enrolled{
+const Register<Potential, PythonFunction> registered{
     "python", "a function of Python's",
     [](const PythonFunction& function) { return std::make_unique<PythonPotential>(function); }};
 

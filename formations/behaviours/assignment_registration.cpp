@@ -83,7 +83,7 @@ class AssignmentRegistration final : public Behaviour {
   std::shared_ptr<const solvers::RegistrationSolver> registration_;
 };
 
-const Enrol<Behaviour, AssignmentRegistrationOptions> enrolled{
+const Register<Behaviour, AssignmentRegistrationOptions> registered{
     "assignment_registration",
     "which slots are these, by assignment over sampled rotations (Rypkema 2015, sec. 3.7); no ids",
     [](const AssignmentRegistrationOptions& options) {

@@ -202,7 +202,7 @@ class AttractionRepulsion final : public Behaviour {
   std::shared_ptr<const solvers::Solver> solver_;
 };
 
-const Enrol<Behaviour, AttractionRepulsionOptions> enrolled{
+const Register<Behaviour, AttractionRepulsionOptions> registered{
     "attraction_repulsion",
     "nearest minimum of a pair potential of some neighbours (Rypkema 2015, sec. 3.4); no ids",
     [](const AttractionRepulsionOptions& options) {

@@ -42,12 +42,12 @@ struct PairForcesOptions {
 /// Moves as a particle under the forces of its neighbours, with friction:
 /// a = -strength sum grad f - friction v.
 ///
-/// The dynamics of the sources whose laws are enrolled as potentials: F = m a with friction (Spears
-/// et al. 2004; 1 - FR per time step there), springs with damping of the own velocity (Shucker and
-/// Bennett 2007), Lennard-Jones with a damping term (Pinciroli et al. 2008). attraction_repulsion
-/// goes to the minimum instead, where no velocity is left to damp. The own velocity is the one that
-/// the vehicle knows of, through the water for a drifter. How large a force may be is the matter of
-/// the guidance's envelope.
+/// The dynamics of the sources whose laws are registered as potentials: F = m a with friction
+/// (Spears et al. 2004; 1 - FR per time step there), springs with damping of the own velocity
+/// (Shucker and Bennett 2007), Lennard-Jones with a damping term (Pinciroli et al. 2008).
+/// attraction_repulsion goes to the minimum instead, where no velocity is left to damp. The own
+/// velocity is the one that the vehicle knows of, through the water for a drifter. How large a
+/// force may be is the matter of the guidance's envelope.
 class PairForces final : public Behaviour {
  public:
   explicit PairForces(const PairForcesOptions& options)
@@ -102,7 +102,7 @@ class PairForces final : public Behaviour {
   std::shared_ptr<const Potential> potential_;
 };
 
-const Enrol<Behaviour, PairForcesOptions> enrolled{
+const Register<Behaviour, PairForcesOptions> registered{
     "pair_forces",
     "forces of a pair potential of some neighbours, with friction (Spears et al. 2004)",
     [](const PairForcesOptions& options) { return std::make_unique<PairForces>(options); }};

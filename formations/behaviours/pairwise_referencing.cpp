@@ -243,7 +243,7 @@ class PairwiseReferencing final : public Behaviour {
   std::shared_ptr<const solvers::Solver> solver_;
 };
 
-const Enrol<Behaviour, PairwiseReferencingOptions> enrolled{
+const Register<Behaviour, PairwiseReferencingOptions> registered{
     "pairwise_referencing",
     "mean of the places that each pair of identified neighbours implies (Rypkema 2015, sec. 3.5)",
     [](const PairwiseReferencingOptions& options) {

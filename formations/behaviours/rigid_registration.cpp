@@ -81,7 +81,7 @@ class RigidRegistration final : public Behaviour {
   std::shared_ptr<const solvers::RegistrationSolver> registration_;
 };
 
-const Enrol<Behaviour, RigidRegistrationOptions> enrolled{
+const Register<Behaviour, RigidRegistrationOptions> registered{
     "rigid_registration",
     "rigid motion of the plan onto the identified neighbours (Rypkema 2015, sec. 3.6)",
     [](const RigidRegistrationOptions& options) {

@@ -130,14 +130,14 @@ class VirtualPotentialStep final : public Behaviour {
   std::shared_ptr<const solvers::Solver> solver_;
 };
 
-const Enrol<Behaviour, VirtualPotentialOptions> force{
+const Register<Behaviour, VirtualPotentialOptions> force{
     "virtual_potential",
     "force of a waypoint, obstacles, rotors and formation cells (Barisic et al. 2011); no ids",
     [](const VirtualPotentialOptions& options) {
       return std::make_unique<VirtualPotentialForce>(options);
     }};
 
-const Enrol<Behaviour, VirtualPotentialStepOptions> step{
+const Register<Behaviour, VirtualPotentialStepOptions> step{
     "virtual_potential_step", "minimum within reach of the same potential, by a solver; no ids",
     [](const VirtualPotentialStepOptions& options) {
       return std::make_unique<VirtualPotentialStep>(options);

@@ -27,7 +27,7 @@ struct Centroid final : Cohesion {
   }
 };
 
-const Enrol<Cohesion, Centroid> enrolled{
+const Register<Cohesion, Centroid> registered{
     "centroid", "pull towards the centroid of all neighbours in range (Rypkema 2015, eq. 3.7)"};
 
 }  // namespace

@@ -12,7 +12,7 @@ struct None final : Cohesion {
   static void declare(Options<None>&) {}
 };
 
-const Enrol<Cohesion, None> enrolled{"none", "nothing but the pair potentials"};
+const Register<Cohesion, None> registered{"none", "nothing but the pair potentials"};
 
 }  // namespace
 }  // namespace shoal::formations

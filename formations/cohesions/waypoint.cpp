@@ -22,7 +22,7 @@ struct Waypoint final : Cohesion {
   }
 };
 
-const Enrol<Cohesion, Waypoint> enrolled{
+const Register<Cohesion, Waypoint> registered{
     "waypoint", "pull towards the waypoint (as the global potential of Pinciroli et al. 2008)"};
 
 }  // namespace

@@ -21,7 +21,7 @@ Command ConditionedForce::command(const Target& target, const Eigen::Vector2d&, 
 
 namespace {
 
-const Enrol<Guidance, ConditionedForceOptions> enrolled{
+const Register<Guidance, ConditionedForceOptions> registered{
     "conditioned_force",
     "what an envelope of speeds and turns allows of a force (Barisic et al. 2011, sec. 5.4)",
     [](const ConditionedForceOptions& options) {

@@ -95,7 +95,7 @@ Command Drift::steer(const Eigen::Vector2d& to_target, State& state) const {
 
 namespace {
 
-const Enrol<Guidance, DriftOptions> enrolled{
+const Register<Guidance, DriftOptions> registered{
     "drift", "to the target, then drifting near it (Rypkema 2015, sec. 3.2)",
     [](const DriftOptions& options) { return std::make_unique<Drift>(options); }};
 

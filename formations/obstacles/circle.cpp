@@ -24,7 +24,7 @@ struct CircleOptions {
   }
 };
 
-const Enrol<Obstacle, CircleOptions> enrolled{
+const Register<Obstacle, CircleOptions> registered{
     "circle", "a disc (Barisic et al. 2011, eq. 46-47)", [](const CircleOptions& options) {
       return std::make_unique<Circle>(Eigen::Vector2d(options.x_m, options.y_m), options.radius_m);
     }};

@@ -71,7 +71,7 @@ Proximity Ellipse::nearest_in_quadrant(const Eigen::Vector2d& place, double roun
 
 namespace {
 
-const Enrol<Obstacle, OblongOptions> enrolled{
+const Register<Obstacle, OblongOptions> registered{
     "ellipse", "a turned ellipse (Barisic et al. 2011, eq. 50-62)",
     [](const OblongOptions& options) { return options.made<Ellipse>(); }};
 

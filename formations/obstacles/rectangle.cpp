@@ -24,7 +24,7 @@ Proximity Rectangle::nearest_in_quadrant(const Eigen::Vector2d& place, double ro
 
 namespace {
 
-const Enrol<Obstacle, OblongOptions> enrolled{
+const Register<Obstacle, OblongOptions> registered{
     "rectangle", "a turned rectangle (Barisic et al. 2011, eq. 48-49)",
     [](const OblongOptions& options) { return options.made<Rectangle>(); }};
 

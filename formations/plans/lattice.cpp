@@ -52,9 +52,9 @@ struct Lattice final : PlanSource {
   }
 };
 
-const Enrol<PlanSource, Lattice<square_place>> square{"square",
-                                                      "a square lattice (Rypkema 2015, sec. 4.2)"};
-const Enrol<PlanSource, Lattice<hexagonal_place>> hexagonal{
+const Register<PlanSource, Lattice<square_place>> square{
+    "square", "a square lattice (Rypkema 2015, sec. 4.2)"};
+const Register<PlanSource, Lattice<hexagonal_place>> hexagonal{
     "hexagonal", "a lattice of equilateral triangles (Rypkema 2015, sec. 4.2)"};
 
 }  // namespace

@@ -35,7 +35,7 @@ struct Letters final : PlanSource {
   }
 };
 
-const Enrol<PlanSource, Letters> enrolled{
+const Register<PlanSource, Letters> registered{
     "letters", "the letters NR, for 22 vehicles (Rypkema 2015, fig. 3.12)"};
 
 }  // namespace

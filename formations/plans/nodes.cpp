@@ -72,8 +72,8 @@ struct Nodes final : PlanSource {
   }
 };
 
-const Enrol<PlanSource, Nodes> enrolled{"nodes",
-                                        "slots written out as strings (Rypkema 2015, Table 3.3)"};
+const Register<PlanSource, Nodes> registered{
+    "nodes", "slots written out as strings (Rypkema 2015, Table 3.3)"};
 
 }  // namespace
 }  // namespace shoal::formations

@@ -48,7 +48,7 @@ struct PlanFile final : PlanSource {
   }
 };
 
-const Enrol<PlanSource, PlanFile> enrolled{"file", "slots from a CSV file: name,x_m,y_m"};
+const Register<PlanSource, PlanFile> registered{"file", "slots from a CSV file: name,x_m,y_m"};
 
 }  // namespace
 }  // namespace shoal::formations

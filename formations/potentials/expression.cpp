@@ -63,7 +63,7 @@ class ExpressionPotential final : public Potential {
   Formula formula_;
 };
 
-const Enrol<Potential, Expression> enrolled{
+const Register<Potential, Expression> registered{
     "expression", "a formula of one's own in r and s",
     [](const Expression& written) { return std::make_unique<ExpressionPotential>(written); }};
 

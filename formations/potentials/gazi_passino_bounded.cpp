@@ -35,7 +35,7 @@ struct GaziPassinoBounded {
   }
 };
 
-const EnrolPotential<GaziPassinoBounded> enrolled{
+const RegisterPotential<GaziPassinoBounded> registered{
     "gazi_passino_bounded", "linear attraction, bounded repulsion (Gazi and Passino 2002)"};
 
 }  // namespace

@@ -22,7 +22,7 @@ struct GaziPassinoConstant {
   }
 };
 
-const EnrolPotential<GaziPassinoConstant> enrolled{
+const RegisterPotential<GaziPassinoConstant> registered{
     "gazi_passino_constant", "constant attraction, unbounded repulsion (Gazi and Passino 2002)"};
 
 }  // namespace

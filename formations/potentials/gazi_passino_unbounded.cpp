@@ -22,7 +22,7 @@ struct GaziPassinoUnbounded {
   }
 };
 
-const EnrolPotential<GaziPassinoUnbounded> enrolled{
+const RegisterPotential<GaziPassinoUnbounded> registered{
     "gazi_passino_unbounded", "linear attraction, unbounded repulsion (Gazi and Passino 2002)"};
 
 }  // namespace

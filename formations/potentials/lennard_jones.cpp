@@ -26,7 +26,7 @@ struct LennardJones {
   }
 };
 
-const EnrolPotential<LennardJones> enrolled{
+const RegisterPotential<LennardJones> registered{
     "lennard_jones", "attraction that fades as r^-7, unbounded repulsion (Pinciroli et al. 2008)"};
 
 }  // namespace

@@ -62,7 +62,7 @@ struct Physicomimetics {
   }
 };
 
-const EnrolPotential<Physicomimetics> enrolled{
+const RegisterPotential<Physicomimetics> registered{
     "physicomimetics",
     "force G / r^p, repulsive inside the separation, attractive outside (Spears et al. 2004)"};
 

@@ -15,7 +15,7 @@ struct ThesisPotential {
   static void declare(Options<ThesisPotential>&) {}
 };
 
-const EnrolPotential<ThesisPotential> enrolled{
+const RegisterPotential<ThesisPotential> registered{
     "thesis", "constant attraction, unbounded repulsion (Rypkema 2015, eq. 3.3)"};
 
 }  // namespace

@@ -26,7 +26,7 @@ struct VirtualSpring {
   }
 };
 
-const EnrolPotential<VirtualSpring> enrolled{
+const RegisterPotential<VirtualSpring> registered{
     "virtual_spring", "a linear spring, for the selection acute_angle (Shucker and Bennett 2007)"};
 
 }  // namespace

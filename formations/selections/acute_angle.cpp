@@ -27,7 +27,7 @@ struct AcuteAngle final : Selection {
   static void declare(Options<AcuteAngle>&) {}
 };
 
-const Enrol<Selection, AcuteAngle> enrolled{
+const Register<Selection, AcuteAngle> registered{
     "acute_angle",
     "virtual spring mesh: neighbours that all others see under an acute angle (Shucker and "
     "Bennett 2007)"};

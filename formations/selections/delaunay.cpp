@@ -48,8 +48,8 @@ struct Delaunay final : Selection {
   static void declare(Options<Delaunay>&) {}
 };
 
-const Enrol<Selection, Delaunay> enrolled{"delaunay",
-                                          "neighbours in the Delaunay triangulation (CGAL)"};
+const Register<Selection, Delaunay> registered{"delaunay",
+                                               "neighbours in the Delaunay triangulation (CGAL)"};
 
 }  // namespace
 }  // namespace shoal::formations

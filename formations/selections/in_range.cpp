@@ -16,8 +16,8 @@ struct InRange final : Selection {
   static void declare(Options<InRange>&) {}
 };
 
-const Enrol<Selection, InRange> enrolled{"in_range",
-                                         "all neighbours in range (Rypkema 2015, eq. 3.5)"};
+const Register<Selection, InRange> registered{"in_range",
+                                              "all neighbours in range (Rypkema 2015, eq. 3.5)"};
 
 }  // namespace
 }  // namespace shoal::formations

@@ -26,7 +26,7 @@ struct KNearest final : Selection {
   }
 };
 
-const Enrol<Selection, KNearest> enrolled{"k_nearest", "the k nearest neighbours"};
+const Register<Selection, KNearest> registered{"k_nearest", "the k nearest neighbours"};
 
 }  // namespace
 }  // namespace shoal::formations

@@ -35,7 +35,7 @@ struct TwoNeighbours final : Selection {
   static void declare(Options<TwoNeighbours>&) {}
 };
 
-const Enrol<Selection, TwoNeighbours> enrolled{
+const Register<Selection, TwoNeighbours> registered{
     "two_neighbours", "the nearest, and the one of the shortest triangle (Lee and Chong 2008)"};
 
 }  // namespace

@@ -27,7 +27,7 @@ struct Channels final : Current {
   }
 };
 
-const Enrol<Current, Channels> enrolled{
+const Register<Current, Channels> registered{
     "channels", "two opposite streams with still water between (Rypkema 2015, sec. 4.2)"};
 
 }  // namespace

@@ -244,7 +244,7 @@ class NetcdfCurrent final : public Current {
   double start_s_;
 };
 
-const Enrol<Current, NetcdfOptions> enrolled{
+const Register<Current, NetcdfOptions> registered{
     "netcdf", "currents from a CF netCDF file, of a model or of observations",
     &NetcdfCurrent::make};
 

@@ -15,7 +15,7 @@ struct Still final : Current {
   static void declare(Options<Still>&) {}
 };
 
-const Enrol<Current, Still> enrolled{"none", "still water (thesis scenario 1)"};
+const Register<Current, Still> registered{"none", "still water (thesis scenario 1)"};
 
 }  // namespace
 }  // namespace shoal::scenarios

@@ -42,7 +42,7 @@ struct Shear final : Current {
   }
 };
 
-const Enrol<Current, Shear> enrolled{"shear", "a velocity that changes linearly with place"};
+const Register<Current, Shear> registered{"shear", "a velocity that changes linearly with place"};
 
 }  // namespace
 }  // namespace shoal::scenarios

@@ -21,7 +21,7 @@ struct Uniform final : Current {
   }
 };
 
-const Enrol<Current, Uniform> enrolled{"uniform", "the same velocity everywhere and always"};
+const Register<Current, Uniform> registered{"uniform", "the same velocity everywhere and always"};
 
 }  // namespace
 }  // namespace shoal::scenarios

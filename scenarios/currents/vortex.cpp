@@ -32,8 +32,8 @@ struct Vortex final : Current {
   }
 };
 
-const Enrol<Current, Vortex> enrolled{"vortex",
-                                      "a counter-clockwise vortex (Rypkema 2015, eq. 4.5)"};
+const Register<Current, Vortex> registered{"vortex",
+                                           "a counter-clockwise vortex (Rypkema 2015, eq. 4.5)"};
 
 }  // namespace
 }  // namespace shoal::scenarios

@@ -30,7 +30,7 @@ struct Perfect final : Estimator {
   static void declare(Options<Perfect>&) {}
 };
 
-const Enrol<Estimator, Perfect> enrolled{"perfect", "the true state, without noise or faults"};
+const Register<Estimator, Perfect> registered{"perfect", "the true state, without noise or faults"};
 
 }  // namespace
 }  // namespace shoal::scenarios

@@ -66,7 +66,7 @@ struct UkfEstimator final : Estimator {
   VehicleFilterOptions options;
 };
 
-const Enrol<Estimator, VehicleFilterOptions> enrolled{
+const Register<Estimator, VehicleFilterOptions> registered{
     "ukf",
     "scaled unscented Kalman filter on twelve noisy measurements, with the current as two "
     "states more (Barisic et al. 2011, Table 2)",

@@ -52,7 +52,8 @@ class StartFile final : public StartSource {
   }
 };
 
-const Enrol<StartSource, StartFile> enrolled{"file", "from a CSV file: name,x_m,y_m[,heading_deg]"};
+const Register<StartSource, StartFile> registered{"file",
+                                                  "from a CSV file: name,x_m,y_m[,heading_deg]"};
 
 }  // namespace
 }  // namespace shoal::scenarios

@@ -121,10 +121,10 @@ class GridStart final : public StartSource {
   }
 };
 
-const Enrol<StartSource, BoxStart> box{"box", "uniform in a square around the origin"};
-const Enrol<StartSource, PlanStart> on_plan{"plan", "on the slots of the plan, centred"};
-const Enrol<StartSource, GridStart> on_grid{"grid", "on a rectangular grid"};
-const Enrol<StartSource, PointsStart> at_points{"points", "at points given in the scenario"};
+const Register<StartSource, BoxStart> box{"box", "uniform in a square around the origin"};
+const Register<StartSource, PlanStart> on_plan{"plan", "on the slots of the plan, centred"};
+const Register<StartSource, GridStart> on_grid{"grid", "on a rectangular grid"};
+const Register<StartSource, PointsStart> at_points{"points", "at points given in the scenario"};
 
 }  // namespace
 

@@ -11,7 +11,7 @@ struct Duration final : StopRule {
   static void declare(Options<Duration>&) {}
 };
 
-const Enrol<StopRule, Duration> enrolled{"duration", "never: after trial.duration_s"};
+const Register<StopRule, Duration> registered{"duration", "never: after trial.duration_s"};
 
 }  // namespace
 }  // namespace shoal::scenarios

@@ -51,7 +51,7 @@ struct Settled final : StopRule {
   }
 };
 
-const Enrol<StopRule, Settled> enrolled{
+const Register<StopRule, Settled> registered{
     "settled", "the formation quality has not changed for a while (Rypkema 2015, sec. 4.4.1)"};
 
 }  // namespace

@@ -326,7 +326,7 @@ std::unique_ptr<Swarm> Drifter::launch(const std::vector<Start>& starts, const E
 }
 
 namespace {
-const Enrol<VehicleType, Drifter> enrolled{
+const Register<VehicleType, Drifter> registered{
     "drifter", "drag and turn in place, the thesis' vehicle (Rypkema 2015, sec. 4.1)"};
 }  // namespace
 

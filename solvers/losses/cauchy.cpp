@@ -21,7 +21,7 @@ struct Cauchy final : Loss {
   }
 };
 
-const Enrol<Loss, Cauchy> enrolled{"cauchy", "logarithmic: the pull of outliers fades"};
+const Register<Loss, Cauchy> registered{"cauchy", "logarithmic: the pull of outliers fades"};
 
 }  // namespace
 }  // namespace shoal::solvers

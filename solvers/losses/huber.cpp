@@ -23,7 +23,7 @@ struct Huber final : Loss {
   }
 };
 
-const Enrol<Loss, Huber> enrolled{"huber", "linear beyond a scale (Huber 1964)"};
+const Register<Loss, Huber> registered{"huber", "linear beyond a scale (Huber 1964)"};
 
 }  // namespace
 }  // namespace shoal::solvers

@@ -10,7 +10,7 @@ struct SquaredResidual final : Loss {
   static void declare(Options<SquaredResidual>&) {}
 };
 
-const Enrol<Loss, SquaredResidual> enrolled{"least_squares", "the square of the residual"};
+const Register<Loss, SquaredResidual> registered{"least_squares", "the square of the residual"};
 
 }  // namespace
 }  // namespace shoal::solvers

@@ -22,8 +22,8 @@ struct Tukey final : Loss {
   }
 };
 
-const Enrol<Loss, Tukey> enrolled{"tukey",
-                                  "constant beyond a scale: outliers are ignored (biweight)"};
+const Register<Loss, Tukey> registered{"tukey",
+                                       "constant beyond a scale: outliers are ignored (biweight)"};
 
 }  // namespace
 }  // namespace shoal::solvers

@@ -264,7 +264,7 @@ class Sampled final : public Matcher {
   MetSubsets met_;
 };
 
-const Enrol<Matcher, SampledOptions> enrolled{
+const Register<Matcher, SampledOptions> registered{
     "sampled",
     "every slot as seed, rotations by multiples of delta theta, optimal assignment in each "
     "(Rypkema 2015, sec. 3.7)",

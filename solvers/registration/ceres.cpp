@@ -3,7 +3,7 @@
 namespace shoal::solvers {
 namespace {
 
-const EnrolDescent<"ceres.least_squares"> enrolled{
+const RegisterDescent<"ceres.least_squares"> registered{
     "ceres", "Ceres: Levenberg-Marquardt on the residuals, for any loss"};
 
 }  // namespace

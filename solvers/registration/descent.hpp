@@ -41,13 +41,13 @@ struct SolverName {
   constexpr SolverName(const char (&name)[N]) { std::copy_n(name, N, text); }  // NOLINT: implicit
 };
 
-/// Enrols the registration by one smooth solver, and hands on that solver's options:
+/// Registers the registration by one smooth solver, and hands on that solver's options:
 ///
-///     const EnrolDescent<"newton"> enrolled{"newton", "what it does"};
+///     const RegisterDescent<"newton"> registered{"newton", "what it does"};
 template <SolverName name>
-struct EnrolDescent {
-  EnrolDescent(std::string as, std::string summary) {
-    Registry<RegistrationSolver>::instance().enrol(
+struct RegisterDescent {
+  RegisterDescent(std::string as, std::string summary) {
+    Registry<RegistrationSolver>::instance().add(
         {std::move(as), std::move(summary), []() -> const Schema& { return smooth().schema(); },
          [](const Setting& table, const std::string& path) { smooth().check(table, path); },
          [](const Setting& table, const std::string& path) {
@@ -60,7 +60,7 @@ struct EnrolDescent {
   }
 
  private:
-  // Looked up when asked for: at start-up that solver may not be enrolled yet.
+  // Looked up when asked for: at start-up that solver may not be registered yet.
   static const MemberInfo& smooth() {
     const auto& all = Registry<Solver>::instance();
     return all.members()[all.index_of(name.text, {}, RegistrationSolver::family)];

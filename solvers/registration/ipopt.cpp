@@ -3,7 +3,7 @@
 namespace shoal::solvers {
 namespace {
 
-const EnrolDescent<"ipopt"> enrolled{
+const RegisterDescent<"ipopt"> registered{
     "ipopt", "Ipopt: interior point, for any loss; one solve at a time in a process"};
 
 }  // namespace

@@ -3,8 +3,8 @@
 namespace shoal::solvers {
 namespace {
 
-const EnrolDescent<"newton"> enrolled{"newton",
-                                      "trust-region Newton on exact derivatives, for any loss"};
+const RegisterDescent<"newton"> registered{
+    "newton", "trust-region Newton on exact derivatives, for any loss"};
 
 }  // namespace
 }  // namespace shoal::solvers

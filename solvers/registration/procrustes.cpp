@@ -63,7 +63,7 @@ class ClosedForm final : public RegistrationSolver {
   static void declare(Options<ClosedForm>&) {}
 };
 
-const Enrol<RegistrationSolver, ClosedForm> enrolled{
+const Register<RegistrationSolver, ClosedForm> registered{
     "procrustes", "closed form, for the loss least_squares (Rypkema 2015, eq. 3.8)"};
 
 }  // namespace

@@ -191,7 +191,7 @@ class TrustRegion final : public Solver {
 template <class Member>
 const auto made = [](const CeresOptions& options) { return std::make_unique<Member>(options); };
 
-const Enrol<Solver, CeresOptions> enrolled[] = {
+const Register<Solver, CeresOptions> registered[] = {
     {"ceres.lbfgs", "Ceres: limited-memory BFGS", made<LineSearch<ceres::LBFGS>>},
     {"ceres.bfgs", "Ceres: BFGS", made<LineSearch<ceres::BFGS>>},
     {"ceres.least_squares", "Ceres: Levenberg-Marquardt on residuals, with robust losses",

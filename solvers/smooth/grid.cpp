@@ -94,7 +94,7 @@ class Grid final : public Solver {
   GridOptions options_;
 };
 
-const Enrol<Solver, GridOptions> enrolled{
+const Register<Solver, GridOptions> registered{
     "grid", "every point of a grid over the box, then of finer ones about the best: an oracle",
     [](const GridOptions& options) { return std::make_unique<Grid>(options); }};
 

@@ -225,7 +225,7 @@ class InteriorPoint final : public Solver {
   IpoptOptions options_;
 };
 
-const Enrol<Solver, IpoptOptions> enrolled{
+const Register<Solver, IpoptOptions> registered{
     "ipopt", "Ipopt: interior point with the exact Hessian; one solve at a time in a process",
     [](const IpoptOptions& options) { return std::make_unique<InteriorPoint>(options); }};
 

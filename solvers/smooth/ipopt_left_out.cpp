@@ -19,7 +19,7 @@ struct LeftOutOptions : Limits {
   static void declare(Options<LeftOutOptions>& o) { declare_limits(o); }
 };
 
-const Enrol<Solver, LeftOutOptions> enrolled{
+const Register<Solver, LeftOutOptions> registered{
     "ipopt", "Ipopt, which this build was made without",
     [](const LeftOutOptions&) { return std::make_unique<LeftOut>(); }};
 

@@ -110,7 +110,7 @@ class Multistart final : public Solver {
   std::shared_ptr<const Solver> solver_;
 };
 
-const Enrol<Solver, MultistartOptions> enrolled{
+const Register<Solver, MultistartOptions> registered{
     "multistart", "the best answer of another solver from many starts",
     [](const MultistartOptions& options) { return std::make_unique<Multistart>(options); }};
 

@@ -200,7 +200,7 @@ class Newton final : public Solver {
   NewtonOptions options_;
 };
 
-const Enrol<Solver, NewtonOptions> enrolled{
+const Register<Solver, NewtonOptions> registered{
     "newton", "trust-region Newton on exact derivatives",
     [](const NewtonOptions& options) { return std::make_unique<Newton>(options); }};
 

@@ -237,71 +237,71 @@ class Nlopt final : public Solver {
 };
 
 template <class SomeOptions>
-void enrol(const Algorithm& algorithm) {
-  Enrol<Solver, SomeOptions>(algorithm.name, algorithm.summary,
-                             [algorithm](const SomeOptions& options) {
-                               return std::make_unique<Nlopt<SomeOptions>>(algorithm, options);
-                             });
+void add(const Algorithm& algorithm) {
+  Register<Solver, SomeOptions>(algorithm.name, algorithm.summary,
+                                [algorithm](const SomeOptions& options) {
+                                  return std::make_unique<Nlopt<SomeOptions>>(algorithm, options);
+                                });
 }
 
-const bool enrolled = [] {
-  enrol<LocalOptions>(
+const bool registered = [] {
+  add<LocalOptions>(
       {.name = "nlopt.lbfgs", .summary = "NLopt: limited-memory BFGS", .id = NLOPT_LD_LBFGS});
-  enrol<LocalOptions>({.name = "nlopt.slsqp",
-                       .summary = "NLopt: sequential quadratic programming",
-                       .id = NLOPT_LD_SLSQP,
-                       .takes_constraints = true,
-                       .takes_equalities = true});
-  enrol<LocalOptions>({.name = "nlopt.mma",
-                       .summary = "NLopt: method of moving asymptotes",
-                       .id = NLOPT_LD_MMA,
-                       .takes_constraints = true});
-  enrol<LocalOptions>({.name = "nlopt.ccsaq",
-                       .summary = "NLopt: conservative convex separable quadratic approximations",
-                       .id = NLOPT_LD_CCSAQ,
-                       .takes_constraints = true});
-  enrol<LocalOptions>(
+  add<LocalOptions>({.name = "nlopt.slsqp",
+                     .summary = "NLopt: sequential quadratic programming",
+                     .id = NLOPT_LD_SLSQP,
+                     .takes_constraints = true,
+                     .takes_equalities = true});
+  add<LocalOptions>({.name = "nlopt.mma",
+                     .summary = "NLopt: method of moving asymptotes",
+                     .id = NLOPT_LD_MMA,
+                     .takes_constraints = true});
+  add<LocalOptions>({.name = "nlopt.ccsaq",
+                     .summary = "NLopt: conservative convex separable quadratic approximations",
+                     .id = NLOPT_LD_CCSAQ,
+                     .takes_constraints = true});
+  add<LocalOptions>(
       {.name = "nlopt.tnewton", .summary = "NLopt: truncated Newton", .id = NLOPT_LD_TNEWTON});
-  enrol<LocalOptions>(
+  add<LocalOptions>(
       {.name = "nlopt.var2", .summary = "NLopt: variable metric, rank 2", .id = NLOPT_LD_VAR2});
-  enrol<ProbingOptions>(
+  add<ProbingOptions>(
       {.name = "nlopt.bobyqa",
        .summary = "NLopt: quadratic models without derivatives (used by Rypkema 2015)",
        .id = NLOPT_LN_BOBYQA,
        .least_unknowns = 2});
-  enrol<ProbingOptions>({.name = "nlopt.cobyla",
-                         .summary = "NLopt: linear models without derivatives",
-                         .id = NLOPT_LN_COBYLA,
-                         .takes_constraints = true,
-                         .takes_equalities = true});
-  enrol<ProbingOptions>({.name = "nlopt.neldermead",
-                         .summary = "NLopt: Nelder-Mead simplex",
-                         .id = NLOPT_LN_NELDERMEAD});
-  enrol<ProbingOptions>({.name = "nlopt.sbplx",
-                         .summary = "NLopt: Subplex, simplices on subspaces",
-                         .id = NLOPT_LN_SBPLX});
-  enrol<Drawing<ProbingOptions>>({.name = "nlopt.praxis",
-                                  .summary = "NLopt: principal axes, without derivatives",
-                                  .id = NLOPT_LN_PRAXIS});
-  enrol<GlobalOptions>({.name = "nlopt.direct_l",
-                        .summary = "NLopt: dividing rectangles, in a box",
-                        .id = NLOPT_GN_DIRECT_L});
-  enrol<Drawing<GlobalOptions>>(
+  add<ProbingOptions>({.name = "nlopt.cobyla",
+                       .summary = "NLopt: linear models without derivatives",
+                       .id = NLOPT_LN_COBYLA,
+                       .takes_constraints = true,
+                       .takes_equalities = true});
+  add<ProbingOptions>({.name = "nlopt.neldermead",
+                       .summary = "NLopt: Nelder-Mead simplex",
+                       .id = NLOPT_LN_NELDERMEAD});
+  add<ProbingOptions>({.name = "nlopt.sbplx",
+                       .summary = "NLopt: Subplex, simplices on subspaces",
+                       .id = NLOPT_LN_SBPLX});
+  add<Drawing<ProbingOptions>>({.name = "nlopt.praxis",
+                                .summary = "NLopt: principal axes, without derivatives",
+                                .id = NLOPT_LN_PRAXIS});
+  add<GlobalOptions>({.name = "nlopt.direct_l",
+                      .summary = "NLopt: dividing rectangles, in a box",
+                      .id = NLOPT_GN_DIRECT_L});
+  add<Drawing<GlobalOptions>>(
       {.name = "nlopt.crs2",
        .summary = "NLopt: controlled random search with local mutation, in a box",
        .id = NLOPT_GN_CRS2_LM});
-  enrol<Drawing<GlobalOptions>>(
+  add<Drawing<GlobalOptions>>(
       {.name = "nlopt.isres",
        .summary = "NLopt: evolution strategy with stochastic ranking, in a box",
        .id = NLOPT_GN_ISRES,
        .takes_constraints = true,
        .takes_equalities = true});
-  enrol<LinkageOptions>({.name = "nlopt.mlsl",
-                         .summary = "NLopt: L-BFGS from low-discrepancy starts, in a box",
-                         .id = NLOPT_GD_MLSL_LDS});
-  enrol<GlobalOptions>({.name = "nlopt.stogo",
-                        .summary = "NLopt: branch and bound with local searches, in a box",
-                        .id = NLOPT_GD_STOGO});
+  add<LinkageOptions>({.name = "nlopt.mlsl",
+                       .summary = "NLopt: L-BFGS from low-discrepancy starts, in a box",
+                       .id = NLOPT_GD_MLSL_LDS});
+  add<GlobalOptions>({.name = "nlopt.stogo",
+                      .summary = "NLopt: branch and bound with local searches, in a box",
+                      .id = NLOPT_GD_STOGO});
   return true;
 }();
 

@@ -186,7 +186,7 @@ void smooth(benchmark::State& state, const std::string& name) {
   state.counters["evaluations"] = evaluations;
 }
 
-const bool all_enrolled = [] {
+const bool all_registered = [] {
   for (const std::string& name : Registry<Solver>::instance().names()) {
     benchmark::RegisterBenchmark(("solver/" + name).c_str(), [name](auto& state) {
       smooth(state, name);

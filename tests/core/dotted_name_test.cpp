@@ -64,12 +64,12 @@ struct Unused {
   static constexpr const char* family_meaning = "chosen by nobody";
 };
 
-const Enrol<Tool, Twice> enrolled_twice{"both_hands", "the same twice"};
-const Enrol<Tool, Saw> enrolled_saw{"hand.saw", "cuts"};
-const Enrol<Tool, Saw> enrolled_fine_saw{"hand.saw_fine", "cuts finely"};
-const Enrol<Tool, Knife> enrolled_knife{"knife", "cuts too"};
-const Enrol<Tool, Drill> enrolled_drill{"motor.drill", "turns a bit"};
-const Enrol<Bit, Wood> enrolled_wood{"wood", "for wood"};
+const Register<Tool, Twice> registered_twice{"both_hands", "the same twice"};
+const Register<Tool, Saw> registered_saw{"hand.saw", "cuts"};
+const Register<Tool, Saw> registered_fine_saw{"hand.saw_fine", "cuts finely"};
+const Register<Tool, Knife> registered_knife{"knife", "cuts too"};
+const Register<Tool, Drill> registered_drill{"motor.drill", "turns a bit"};
+const Register<Bit, Wood> registered_wood{"wood", "for wood"};
 
 struct Bench {
   Choice<Tool> tool{"knife"};
@@ -168,7 +168,7 @@ TEST(DottedName, IsWrittenAsItIsRead) {
 }
 
 TEST(DottedName, IsRefusedWhereItsOptionsWouldMixWithThoseOfAnother) {
-  using SawAgain = Enrol<Tool, Saw>;
+  using SawAgain = Register<Tool, Saw>;
   for (const char* name : {"hand", "hand.saw.large", "knife.x", "motor"}) {
     EXPECT_THROW((SawAgain{name, "again"}), std::logic_error) << name;
   }

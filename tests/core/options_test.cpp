@@ -43,10 +43,10 @@ struct DiscOptions {
   }
 };
 
-const Enrol<Shape, Square> enrolled_square{"square", "four sides"};
-const Enrol<Shape, DiscOptions> enrolled_disc{"disc", "no side", [](const DiscOptions& o) {
-                                                return std::make_unique<Disc>(o.diameter_m / 2);
-                                              }};
+const Register<Shape, Square> registered_square{"square", "four sides"};
+const Register<Shape, DiscOptions> registered_disc{
+    "disc", "no side",
+    [](const DiscOptions& o) { return std::make_unique<Disc>(o.diameter_m / 2); }};
 
 enum class Mode { fast, slow };
 
@@ -323,7 +323,7 @@ TEST(Registry, KeepsItsMembersSortedAndEveryFamilyKnown) {
 }
 
 TEST(Registry, RefusesASecondMemberOfTheSameName) {
-  using SquareAgain = Enrol<Shape, Square>;
+  using SquareAgain = Register<Shape, Square>;
   EXPECT_THROW((SquareAgain{"square", "again"}), std::logic_error);
   EXPECT_EQ(Registry<Shape>::instance().names().size(), 2u);
 }

@@ -42,9 +42,9 @@ struct Bowl {
 
 // Every solver ---------------------------------------------------------------------------------
 
-class EnrolledSolver : public testing::TestWithParam<std::string> {};
+class EverySolver : public testing::TestWithParam<std::string> {};
 
-TEST_P(EnrolledSolver, FindsThePlaceOfFigure37) {
+TEST_P(EverySolver, FindsThePlaceOfFigure37) {
   const auto solver = Registry<solvers::Solver>::instance().make(GetParam(), Setting{}, "test");
   if (const auto why = solver->refuses({Vector2d(0, 0), solvers::differentiated<2>(Bowl{})})) {
     GTEST_SKIP() << GetParam() << " " << *why;
@@ -60,7 +60,7 @@ TEST_P(EnrolledSolver, FindsThePlaceOfFigure37) {
   EXPECT_LT((target(1e-5).position - answer37).norm(), 1e-3);
 }
 
-INSTANTIATE_TEST_SUITE_P(Solvers, EnrolledSolver,
+INSTANTIATE_TEST_SUITE_P(Solvers, EverySolver,
                          testing::ValuesIn(Registry<solvers::Solver>::instance().names()),
                          [](const auto& tested) { return shoal::tests::test_name(tested.param); });
 
@@ -388,7 +388,7 @@ struct Refuser final : solvers::Solver {
   }
   static void declare(Options<Refuser>&) {}
 };
-const Enrol<solvers::Solver, Refuser> refuser{"test_refuser", "needs bounds"};
+const Register<solvers::Solver, Refuser> refuser{"test_refuser", "needs bounds"};
 
 TEST(AttractionRepulsion, RefusesASolverThatCannotTakeItsProblems) {
   EXPECT_EQ(complaint({{"solver.kind", {"test_refuser", {"swarm.toml", 9}}}}),

@@ -1,4 +1,4 @@
-// What holds for every enrolled behaviour: a new one is tested by being there.
+// What holds for every registered behaviour: a new one is tested by being there.
 
 #include <gtest/gtest.h>
 
@@ -13,7 +13,7 @@ namespace {
 
 using namespace tests;
 
-class EnrolledBehaviour : public testing::TestWithParam<std::string> {
+class EveryBehaviour : public testing::TestWithParam<std::string> {
  protected:
   std::unique_ptr<Behaviour> made = behaviour(GetParam());
 };
@@ -53,7 +53,7 @@ std::vector<Neighbours> degenerate_swarms() {
   return ::testing::AssertionFailure() << target.position.transpose() << ", cost " << target.cost;
 }
 
-TEST_P(EnrolledBehaviour, AnswersEveryDegenerateSwarmWithAFiniteTarget) {
+TEST_P(EveryBehaviour, AnswersEveryDegenerateSwarmWithAFiniteTarget) {
   const Plan plan = square_lattice(4, 3, 300.0);
   for (const Neighbours& swarm : degenerate_swarms()) {
     for (const Neighbours& seen : {swarm, without_ids(swarm)}) {
@@ -66,7 +66,7 @@ TEST_P(EnrolledBehaviour, AnswersEveryDegenerateSwarmWithAFiniteTarget) {
   }
 }
 
-TEST_P(EnrolledBehaviour, AnswersEverySwarmWithAFiniteTargetAndTwiceWithTheSame) {
+TEST_P(EveryBehaviour, AnswersEverySwarmWithAFiniteTargetAndTwiceWithTheSame) {
   EXPECT_TRUE(rc::check("finite, and the same again, with and without ids", [&] {
     const Plan plan = drawn_plan(1, 12);
     const int own = drawn_int(0, plan.size() - 1);
@@ -82,7 +82,7 @@ TEST_P(EnrolledBehaviour, AnswersEverySwarmWithAFiniteTargetAndTwiceWithTheSame)
   }));
 }
 
-TEST_P(EnrolledBehaviour, HoldsWithAReasonWhenItHearsNobodyAndHasNowhereToGo) {
+TEST_P(EveryBehaviour, HoldsWithAReasonWhenItHearsNobodyAndHasNowhereToGo) {
   const Target target = made->step({{}, 3}, square_lattice(4, 3, 300.0));
   if (made->needs_waypoint()) {
     EXPECT_EQ(target.reason, Reason::placed);
@@ -92,14 +92,14 @@ TEST_P(EnrolledBehaviour, HoldsWithAReasonWhenItHearsNobodyAndHasNowhereToGo) {
   EXPECT_EQ(target.position, Vector2d(0, 0));
 }
 
-TEST_P(EnrolledBehaviour, HoldsAmongStrangersIfAndOnlyIfItNeedsIds) {
+TEST_P(EveryBehaviour, HoldsAmongStrangersIfAndOnlyIfItNeedsIds) {
   const Plan plan = square_lattice(3, 3, 300.0);
   const Neighbours strangers = without_ids(heard(plan, 4, {}, {20, 10}));
   const Target target = made->step({strangers, 4}, plan);
   EXPECT_EQ(target.held(), made->needs_ids());
 }
 
-TEST_P(EnrolledBehaviour, GivesTwoThreadsTheSameBits) {
+TEST_P(EveryBehaviour, GivesTwoThreadsTheSameBits) {
   const Plan plan = square_lattice(4, 3, 300.0);
   const auto fly = [&](std::vector<Target>& targets) {
     for (int own = 0; own < plan.size(); ++own) {
@@ -121,7 +121,7 @@ TEST_P(EnrolledBehaviour, GivesTwoThreadsTheSameBits) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Behaviours, EnrolledBehaviour,
+INSTANTIATE_TEST_SUITE_P(Behaviours, EveryBehaviour,
                          testing::ValuesIn(Registry<Behaviour>::instance().names()),
                          [](const auto& tested) { return shoal::tests::test_name(tested.param); });
 

@@ -17,12 +17,12 @@ std::unique_ptr<Cohesion> cohesion(const std::string& kind, Table options = {}) 
 
 const Neighbours three_neighbours{{{300, 0}}, {{0, 600}}, {{-600, 0}}};
 
-class EnrolledCohesion : public testing::TestWithParam<std::string> {
+class EveryCohesion : public testing::TestWithParam<std::string> {
  protected:
   std::unique_ptr<Cohesion> made = cohesion(GetParam());
 };
 
-TEST_P(EnrolledCohesion, HasTheDerivativesOfItsValue) {
+TEST_P(EveryCohesion, HasTheDerivativesOfItsValue) {
   for (const Vector2d& p : {Vector2d(100, -30), Vector2d(-1, 2), Vector2d(0, 0)}) {
     constexpr double h = 0.1;
     const PlaneValue exact = made->at(p);
@@ -36,14 +36,14 @@ TEST_P(EnrolledCohesion, HasTheDerivativesOfItsValue) {
   }
 }
 
-TEST_P(EnrolledCohesion, IsLeastAtItsAnchor) {
+TEST_P(EveryCohesion, IsLeastAtItsAnchor) {
   for (const Vector2d& p : {Vector2d(100, -30), Vector2d(-1, 2)}) {
     EXPECT_LE(made->at({0, 0}).value, made->at(p).value);
     EXPECT_GE(made->at(p).gradient.dot(p), 0.0);
   }
 }
 
-TEST_P(EnrolledCohesion, HasAnAnchorThatTurnsWithTheWorldWhateverTheOrder) {
+TEST_P(EveryCohesion, HasAnAnchorThatTurnsWithTheWorldWhateverTheOrder) {
   const Transform2 turn = rotation(0.7);
   const Vector2d waypoint(500, 100);
   const Vector2d anchor = made->anchor(three_neighbours, waypoint);
@@ -56,7 +56,7 @@ TEST_P(EnrolledCohesion, HasAnAnchorThatTurnsWithTheWorldWhateverTheOrder) {
   EXPECT_LT((made->anchor(reversed, waypoint) - anchor).norm(), 1e-9);
 }
 
-INSTANTIATE_TEST_SUITE_P(Cohesions, EnrolledCohesion,
+INSTANTIATE_TEST_SUITE_P(Cohesions, EveryCohesion,
                          testing::ValuesIn(Registry<Cohesion>::instance().names()),
                          [](const auto& tested) { return tested.param; });
 

@@ -9,7 +9,7 @@
 namespace shoal::formations {
 namespace {
 
-TEST(OwnPotential, IsTakenByABehaviourOnceItIsEnrolled) {
+TEST(OwnPotential, IsTakenByABehaviourOnceItIsRegistered) {
   Setting options;
   assign(options, "potential.kind", {"spring", {}});
   assign(options, "potential.spring.stiffness", {2.0, {}});

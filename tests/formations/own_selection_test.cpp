@@ -8,7 +8,7 @@
 namespace shoal::formations {
 namespace {
 
-TEST(OwnSelection, IsTakenByABehaviourOnceItIsEnrolled) {
+TEST(OwnSelection, IsTakenByABehaviourOnceItIsRegistered) {
   const auto made = tests::behaviour("attraction_repulsion",
                                      {{"selection.kind", "nearest"}, {"cohesion.kind", "none"}});
   const std::vector<Neighbour> heard{{{500, 0}}, {{0, 320}}};

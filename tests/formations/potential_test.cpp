@@ -12,14 +12,14 @@ namespace {
 
 constexpr double separations[] = {0.5, 30.0, 300.0};
 
-/// Every enrolled potential with its defaults: a new one is tested by being there.
-class EnrolledPotential : public testing::TestWithParam<std::string> {
+/// Every registered potential with its defaults: a new one is tested by being there.
+class EveryPotential : public testing::TestWithParam<std::string> {
  protected:
   std::unique_ptr<Potential> potential =
       Registry<Potential>::instance().make(GetParam(), Setting{}, "test");
 };
 
-TEST_P(EnrolledPotential, HasTheDerivativesOfItsValue) {
+TEST_P(EveryPotential, HasTheDerivativesOfItsValue) {
   for (const double s : separations) {
     for (const double share : {0.6, 0.95, 1.0, 1.3, 2.0, 4.0}) {
       const double r = share * s;
@@ -40,7 +40,7 @@ TEST_P(EnrolledPotential, HasTheDerivativesOfItsValue) {
   }
 }
 
-TEST_P(EnrolledPotential, IsLowestAtTheSeparation) {
+TEST_P(EveryPotential, IsLowestAtTheSeparation) {
   for (const double s : separations) {
     const double least = potential->value(s, s);
     EXPECT_NEAR(potential->derivatives(s, s).slope, 0.0, 1e-12);
@@ -54,7 +54,7 @@ TEST_P(EnrolledPotential, IsLowestAtTheSeparation) {
   }
 }
 
-TEST_P(EnrolledPotential, PushesOutwardsInsideAndInwardsOutside) {
+TEST_P(EveryPotential, PushesOutwardsInsideAndInwardsOutside) {
   for (const double s : separations) {
     for (int i = 10; i <= 500; ++i) {
       if (i == 100) continue;
@@ -64,7 +64,7 @@ TEST_P(EnrolledPotential, PushesOutwardsInsideAndInwardsOutside) {
   }
 }
 
-TEST_P(EnrolledPotential, IsFiniteFromMillimetresToThousandsOfKilometres) {
+TEST_P(EveryPotential, IsFiniteFromMillimetresToThousandsOfKilometres) {
   for (const double s : separations) {
     for (double r = 1e-3; r < 1e7; r *= 1.7) {
       const RadialValue f = potential->derivatives(r, s);
@@ -74,7 +74,7 @@ TEST_P(EnrolledPotential, IsFiniteFromMillimetresToThousandsOfKilometres) {
   }
 }
 
-TEST_P(EnrolledPotential, IsPreparedForASeparationWithoutChangingANumber) {
+TEST_P(EveryPotential, IsPreparedForASeparationWithoutChangingANumber) {
   const auto prepared = Registry<Potential>::instance().make(GetParam(), Setting{}, "test");
   for (const double s : separations) {
     EXPECT_EQ(prepared->complaint(s), std::nullopt);
@@ -88,7 +88,7 @@ TEST_P(EnrolledPotential, IsPreparedForASeparationWithoutChangingANumber) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Potentials, EnrolledPotential,
+INSTANTIATE_TEST_SUITE_P(Potentials, EveryPotential,
                          testing::ValuesIn(Registry<Potential>::instance().names()),
                          [](const auto& tested) { return shoal::tests::test_name(tested.param); });
 

@@ -33,14 +33,15 @@ Neighbours drawn_swarm(int most = 12) {
   return without_ids(heard(drawn_plan(2, most), 0));
 }
 
-// Every enrolled selection ------------------------------------------------------------------------
+// Every registered selection
+// ------------------------------------------------------------------------
 
-class EnrolledSelection : public testing::TestWithParam<std::string> {
+class EverySelection : public testing::TestWithParam<std::string> {
  protected:
   std::unique_ptr<Selection> made = selection(GetParam());
 };
 
-TEST_P(EnrolledSelection, ChoosesSomeNeighboursOnceEach) {
+TEST_P(EverySelection, ChoosesSomeNeighboursOnceEach) {
   EXPECT_TRUE(rc::check("indices, at least one, nobody twice", [&] {
     const Neighbours swarm = drawn_swarm();
     const Indices indices = chosen(*made, swarm);
@@ -50,7 +51,7 @@ TEST_P(EnrolledSelection, ChoosesSomeNeighboursOnceEach) {
   }));
 }
 
-TEST_P(EnrolledSelection, DoesNotDependOnOrderIdsAndAges) {
+TEST_P(EverySelection, DoesNotDependOnOrderIdsAndAges) {
   EXPECT_TRUE(rc::check("the same positions", [&] {
     Neighbours swarm = drawn_swarm();
     const std::vector<int> order = drawn_order(static_cast<int>(swarm.size()));
@@ -67,7 +68,7 @@ TEST_P(EnrolledSelection, DoesNotDependOnOrderIdsAndAges) {
   }));
 }
 
-TEST_P(EnrolledSelection, TurnsAndMirrorsWithTheSwarm) {
+TEST_P(EverySelection, TurnsAndMirrorsWithTheSwarm) {
   EXPECT_TRUE(rc::check("the same indices", [&] {
     const Neighbours swarm = drawn_swarm();
     Neighbours moved = turned(swarm, rotation(drawn_angle()));
@@ -78,7 +79,7 @@ TEST_P(EnrolledSelection, TurnsAndMirrorsWithTheSwarm) {
   }));
 }
 
-TEST_P(EnrolledSelection, AnswersEveryDegenerateSwarm) {
+TEST_P(EverySelection, AnswersEveryDegenerateSwarm) {
   EXPECT_TRUE(chosen(*made, {}).empty());
   for (const Neighbours& swarm : {
            neighbours_at({{200, 0}}),
@@ -103,7 +104,7 @@ TEST_P(EnrolledSelection, AnswersEveryDegenerateSwarm) {
   }
 }
 
-TEST_P(EnrolledSelection, AllocatesNothingOnceItHasSeenASwarm) {
+TEST_P(EverySelection, AllocatesNothingOnceItHasSeenASwarm) {
   if (GetParam() == "delaunay") GTEST_SKIP() << "CGAL allocates";
   const Neighbours swarm = heard(square_lattice(4, 3, 300.0), 5, rotation(0.3));
   std::vector<int> indices;
@@ -113,7 +114,7 @@ TEST_P(EnrolledSelection, AllocatesNothingOnceItHasSeenASwarm) {
   EXPECT_EQ(shoal::tests::allocations() - before, 0u);
 }
 
-INSTANTIATE_TEST_SUITE_P(Selections, EnrolledSelection,
+INSTANTIATE_TEST_SUITE_P(Selections, EverySelection,
                          testing::ValuesIn(Registry<Selection>::instance().names()),
                          [](const auto& tested) { return tested.param; });
 

@@ -92,7 +92,7 @@ Quality quality(const std::vector<std::pair<std::string, std::string>>& words,
   return quality(*estimator("ukf", words), water);
 }
 
-TEST(Estimators, AreEnrolled) {
+TEST(Estimators, AreRegistered) {
   EXPECT_EQ(Registry<Estimator>::instance().names(), (std::vector<std::string>{"perfect", "ukf"}));
 }
 

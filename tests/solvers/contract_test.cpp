@@ -1,5 +1,5 @@
 // What every solver of smooth problems promises, whatever stands behind it: a new one is tested by
-// being enrolled.
+// being registered.
 
 #include <gtest/gtest.h>
 

@@ -27,12 +27,12 @@ std::vector<double> squares() {
   return all;
 }
 
-class EnrolledLoss : public testing::TestWithParam<std::string> {
+class EveryLoss : public testing::TestWithParam<std::string> {
  protected:
   const std::unique_ptr<Loss> tested = scaled_loss(GetParam());
 };
 
-TEST_P(EnrolledLoss, HasTheDerivativesThatDifferencesShow) {
+TEST_P(EveryLoss, HasTheDerivativesThatDifferencesShow) {
   for (const double squared : squares()) {
     const LossValue here = tested->at(squared);
     const double h = 1e-4 * squared;
@@ -43,7 +43,7 @@ TEST_P(EnrolledLoss, HasTheDerivativesThatDifferencesShow) {
   }
 }
 
-TEST_P(EnrolledLoss, IsTheSquareNearZero) {
+TEST_P(EveryLoss, IsTheSquareNearZero) {
   const LossValue zero = tested->at(0.0);
   EXPECT_EQ(zero.value, 0.0);
   EXPECT_EQ(zero.slope, 1.0);
@@ -55,7 +55,7 @@ TEST_P(EnrolledLoss, IsTheSquareNearZero) {
   }
 }
 
-TEST_P(EnrolledLoss, NeverFallsAndNeverGrowsFasterThanTheSquare) {
+TEST_P(EveryLoss, NeverFallsAndNeverGrowsFasterThanTheSquare) {
   LossValue before = tested->at(0.0);
   for (const double squared : squares()) {
     const LossValue here = tested->at(squared);
@@ -68,25 +68,24 @@ TEST_P(EnrolledLoss, NeverFallsAndNeverGrowsFasterThanTheSquare) {
   }
 }
 
-TEST_P(EnrolledLoss, IsContinuousWithItsSlopeAtItsScale) {
+TEST_P(EveryLoss, IsContinuousWithItsSlopeAtItsScale) {
   const double at = scale_m * scale_m;
   const LossValue below = tested->at(at * (1.0 - 1e-9)), above = tested->at(at * (1.0 + 1e-9));
   EXPECT_NEAR(below.value, above.value, 1e-7);
   EXPECT_NEAR(below.slope, above.slope, 1e-7);
 }
 
-TEST_P(EnrolledLoss, StaysFiniteForResidualsBeyondAllReason) {
+TEST_P(EveryLoss, StaysFiniteForResidualsBeyondAllReason) {
   const LossValue far = tested->at(1e24);
   EXPECT_TRUE(std::isfinite(far.value) && std::isfinite(far.slope) && std::isfinite(far.curvature));
 }
 
-TEST_P(EnrolledLoss, IsTheSquareEverywhereIfItSaysSo) {
+TEST_P(EveryLoss, IsTheSquareEverywhereIfItSaysSo) {
   const bool square_far_away = tested->at(1e6).value == 1e6;
   EXPECT_EQ(tested->is_square(), square_far_away);
 }
 
-INSTANTIATE_TEST_SUITE_P(Losses, EnrolledLoss,
-                         testing::ValuesIn(Registry<Loss>::instance().names()),
+INSTANTIATE_TEST_SUITE_P(Losses, EveryLoss, testing::ValuesIn(Registry<Loss>::instance().names()),
                          [](const auto& tested) { return tested.param; });
 
 void expect_loss(const std::string& name, double squared, const LossValue& by_hand) {

@@ -1,4 +1,4 @@
-// What holds for every enrolled solver of the family with every loss.
+// What holds for every registered solver of the family with every loss.
 
 #include "shoal/solvers/registration/registration.hpp"
 #include "shoal/solvers/matching/points.hpp"
@@ -45,7 +45,7 @@ class EveryCombination : public testing::TestWithParam<Combination> {
 
   RegistrationSolution fit(const Pairs& pairs) const { return with->solve({pairs, of.get()}); }
 };
-class EnrolledRegistration : public EveryCombination {};
+class EveryRegistration : public EveryCombination {};
 
 TEST_P(EveryCombination, IsSolvedOrExplained) {
   const Pairs pairs = lattice();
@@ -67,7 +67,7 @@ TEST_P(EveryCombination, IsSolvedOrExplained) {
   }
 }
 
-TEST_P(EnrolledRegistration, IsTheIdentityForIdenticalPoints) {
+TEST_P(EveryRegistration, IsTheIdentityForIdenticalPoints) {
   const RegistrationSolution solution =
       fit({{{3, 4}, {3, 4}}, {{-5, 1}, {-5, 1}}, {{7, -2}, {7, -2}}});
   EXPECT_TRUE(is(solution, Status::converged));
@@ -75,7 +75,7 @@ TEST_P(EnrolledRegistration, IsTheIdentityForIdenticalPoints) {
   EXPECT_NEAR(solution.T_to_from.translation.norm(), 0.0, 1e-12);
 }
 
-TEST_P(EnrolledRegistration, AnswersDegenerateSetsWithAStatus) {
+TEST_P(EveryRegistration, AnswersDegenerateSetsWithAStatus) {
   const auto only_moved = [&](const Pairs& pairs) {
     const RegistrationSolution solution = fit(pairs);
     EXPECT_TRUE(is(solution, Status::undetermined));
@@ -100,7 +100,7 @@ TEST_P(EnrolledRegistration, AnswersDegenerateSetsWithAStatus) {
   EXPECT_NEAR(line.T_to_from.angle(), radians(90.0), 1e-9);
 }
 
-TEST_P(EnrolledRegistration, RefusesWhatItCannotWeighOrRead) {
+TEST_P(EveryRegistration, RefusesWhatItCannotWeighOrRead) {
   for (const Pairs& wrong : {
            Pairs{},
            Pairs{{{0, 0}, {1, 1}, 0.0}},
@@ -117,7 +117,7 @@ TEST_P(EnrolledRegistration, RefusesWhatItCannotWeighOrRead) {
   }
 }
 
-TEST_P(EnrolledRegistration, MovesWithItsPointsAndIgnoresTheirOrderAndTheScaleOfTheWeights) {
+TEST_P(EveryRegistration, MovesWithItsPointsAndIgnoresTheirOrderAndTheScaleOfTheWeights) {
   EXPECT_TRUE(rc::check("is equivariant", [&] {
     const Pairs pairs = drawn_formation(drawn_count(4, 8), 1);
     const RegistrationSolution before = fit(pairs);
@@ -150,7 +150,7 @@ TEST_P(EnrolledRegistration, MovesWithItsPointsAndIgnoresTheirOrderAndTheScaleOf
   }));
 }
 
-TEST_P(EnrolledRegistration, NeverAnswersWithAReflection) {
+TEST_P(EveryRegistration, NeverAnswersWithAReflection) {
   EXPECT_TRUE(rc::check("cosine^2 + sine^2 = 1 for mirrored sets, and the cost is its own", [&] {
     Pairs pairs = drawn_pairs();
     for (PointPair& p : pairs) p.to = {-p.from.x(), p.from.y()};
@@ -162,7 +162,7 @@ TEST_P(EnrolledRegistration, NeverAnswersWithAReflection) {
   }));
 }
 
-TEST_P(EnrolledRegistration, KeepsItsDigitsFarFromTheOrigin) {
+TEST_P(EveryRegistration, KeepsItsDigitsFarFromTheOrigin) {
   const Vector2d away(1e6, -1e6);
   const Pairs near = lattice();
   const Pairs far = lattice(0.0, Vector2d(40, -70) + away);
@@ -172,7 +172,7 @@ TEST_P(EnrolledRegistration, KeepsItsDigitsFarFromTheOrigin) {
   EXPECT_LT(apart(here, there, near), 1e-6);
 }
 
-TEST_P(EnrolledRegistration, FindsAnyAngle) {
+TEST_P(EveryRegistration, FindsAnyAngle) {
   for (int deg = -360; deg <= 360; deg += 15) {
     const auto motion = Transform2::from_angle(radians(deg), {5, 6});
     Pairs pairs = lattice();
@@ -184,7 +184,7 @@ TEST_P(EnrolledRegistration, FindsAnyAngle) {
   }
 }
 
-TEST_P(EnrolledRegistration, GivesTwoThreadsTheSameBits) {
+TEST_P(EveryRegistration, GivesTwoThreadsTheSameBits) {
   std::vector<Transform2> here, there;
   const auto fly = [&](std::vector<Transform2>& motions) {
     for (int k = 0; k < 20; ++k) motions.push_back(fit(lattice(25.0 * k)).T_to_from);
@@ -204,7 +204,7 @@ const auto name_of_combination = [](const auto& tested) {
 };
 INSTANTIATE_TEST_SUITE_P(Registration, EveryCombination, testing::ValuesIn(combinations(false)),
                          name_of_combination);
-INSTANTIATE_TEST_SUITE_P(Registration, EnrolledRegistration, testing::ValuesIn(combinations(true)),
+INSTANTIATE_TEST_SUITE_P(Registration, EveryRegistration, testing::ValuesIn(combinations(true)),
                          name_of_combination);
 
 TEST(Registration, HasTheSolversPromised) {

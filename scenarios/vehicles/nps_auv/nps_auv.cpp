@@ -234,7 +234,7 @@ std::unique_ptr<Swarm> NpsAuv::launch(const std::vector<Start>& starts, const En
   return std::make_unique<NpsAuvSwarm>(*this, starts, energy, random, tick_s);
 }
 
-const Enrol<VehicleType, NpsAuv> enrolled{
+const Register<VehicleType, NpsAuv> registered{
     "nps_auv", "NPS Aries class in six degrees of freedom (Barisic et al. 2011, sec. 4)"};
 
 }  // namespace

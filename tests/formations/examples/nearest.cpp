@@ -17,7 +17,7 @@ struct Nearest : Selection {
   static void declare(Options<Nearest>&) {}
 };
 
-const Enrol<Selection, Nearest> enrolled{"nearest", "the nearest neighbour only"};
+const Register<Selection, Nearest> registered{"nearest", "the nearest neighbour only"};
 
 }  // namespace
 }  // namespace shoal::formations

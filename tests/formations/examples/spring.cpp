@@ -17,7 +17,7 @@ struct Spring {
   }
 };
 
-const EnrolPotential<Spring> enrolled{"spring", "a spring"};
+const RegisterPotential<Spring> registered{"spring", "a spring"};
 
 }  // namespace
 }  // namespace shoal::formations

@@ -18,4 +18,5 @@ struct MyGathering final : Behaviour {
   static void declare(Options<MyGathering>&) {}
 };
 
-const Enrol<Behaviour, MyGathering> enrolled{"my_gathering", "to the centroid of the neighbours"};
+const Register<Behaviour, MyGathering> registered{"my_gathering",
+                                                  "to the centroid of the neighbours"};

@@ -24,4 +24,4 @@ struct MyJet final : Current {
   }
 };
 
-const Enrol<Current, MyJet> enrolled{"my_jet", "a jet towards east"};
+const Register<Current, MyJet> registered{"my_jet", "a jet towards east"};

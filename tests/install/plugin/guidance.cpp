@@ -23,4 +23,4 @@ struct MyPursuit final : Guidance {
   }
 };
 
-const Enrol<Guidance, MyPursuit> enrolled{"my_pursuit", "straight to the target, always"};
+const Register<Guidance, MyPursuit> registered{"my_pursuit", "straight to the target, always"};

@@ -17,4 +17,4 @@ struct MyEasting final : Measure {
   }
 };
 
-const Enrol<Measure, MyEasting> enrolled{"my_easting", "how far east the swarm has gone"};
+const Register<Measure, MyEasting> registered{"my_easting", "how far east the swarm has gone"};

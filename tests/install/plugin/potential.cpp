@@ -24,4 +24,4 @@ struct MySpring final : Potential {
   }
 };
 
-const Enrol<Potential, MySpring> enrolled{"my_spring", "a spring of one's own"};
+const Register<Potential, MySpring> registered{"my_spring", "a spring of one's own"};
