@@ -120,25 +120,37 @@ Problem layout(std::shared_ptr<const Layout>& residuals) {
   return least_squares_problem(start, {residuals, nullptr, {}});
 }
 
+Solution solved(const std::string& name, const Problem& problem) {
+  Setting options;
+  options.at_or_new("max_evaluations").value = std::int64_t{5000};
+  const auto solver = Registry<Solver>::instance().make(name, options, "solver");
+  EXPECT_EQ(solver->refuses(problem), std::nullopt);
+  return solver->solve(problem);
+}
+
 class ManyUnknowns : public testing::TestWithParam<std::string> {
  protected:
-  Solution solved(const Problem& problem) {
-    Setting options;
-    options.at_or_new("max_evaluations").value = std::int64_t{5000};
-    const auto solver = Registry<Solver>::instance().make(GetParam(), options, "solver");
-    EXPECT_EQ(solver->refuses(problem), std::nullopt);
-    return solver->solve(problem);
+  // The whole lattice moves and turns against the springs of 1e-4 alone: the cost, about 2 with a
+  // rounding of some 1e-15, does not tell places apart that are closer than 1e-5 m. Methods that
+  // compare costs may end there.
+  void expect_the_minimum(const Solution& solution, const Problem& problem) {
+    EXPECT_TRUE(solution.status == Status::converged ||
+                solution.status == Status::stalled_at_roundoff)
+        << name_of(solution.status);
+    const Solution exact = solved("newton", problem);
+    ASSERT_EQ(exact.status, Status::converged);
+    ASSERT_EQ(solution.x.size(), exact.x.size());
+    EXPECT_LT((solution.x - exact.x).lpNorm<Eigen::Infinity>(), 1e-4);
   }
 };
 
 TEST_P(ManyUnknowns, LayOutAWholeSwarm) {
   std::shared_ptr<const Layout> residuals;
   const Problem problem = layout(residuals);
-  const Solution solution = solved(problem);
-  EXPECT_EQ(solution.status, Status::converged) << name_of(solution.status);
-  ASSERT_EQ(solution.x.size(), 100);
+  const Solution solution = solved(GetParam(), problem);
+  expect_the_minimum(solution, problem);
   EXPECT_LT(solution.cost, 0.05 * problem.evaluate(problem.start.data()));
-  // Of the same minimum, whatever the solver: distances are those of the lattice within 0.5 m.
+  // Distances are those of the lattice within 0.5 m.
   for (int b = 0; b < residuals->pairs(); ++b) {
     double miss[2];
     residuals->evaluate(b, solution.x.data(), miss, nullptr, nullptr);
@@ -147,14 +159,14 @@ TEST_P(ManyUnknowns, LayOutAWholeSwarm) {
 }
 
 TEST_P(ManyUnknowns, KeepToBoundsThatHoldSomeOfThem) {
-  if (GetParam() == "ceres.lbfgs" || GetParam() == "ceres.bfgs") GTEST_SKIP() << "takes no bounds";
+  if (GetParam() == "ceres.lbfgs") GTEST_SKIP() << "takes no bounds";
   std::shared_ptr<const Layout> residuals;
   Problem problem = layout(residuals);
   problem.lower = problem.start.array() - 30.0;
   problem.upper = problem.start.array() + 30.0;
   for (int k = 0; k < 4; ++k) (*problem.lower)[k] = (*problem.upper)[k] = problem.start[k];
-  const Solution solution = solved(problem);
-  EXPECT_EQ(solution.status, Status::converged) << name_of(solution.status);
+  const Solution solution = solved(GetParam(), problem);
+  expect_the_minimum(solution, problem);
   EXPECT_EQ(solution.x.head(4), problem.start.head(4)) << "two vehicles stay where they are";
   EXPECT_EQ(solution.violation, 0.0);
 }
