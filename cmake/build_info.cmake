@@ -8,12 +8,16 @@ add_custom_target(shoal_source_id BYPRODUCTS ${source_id}
 add_dependencies(shoal_analysis shoal_source_id)
 target_include_directories(shoal_analysis PRIVATE ${PROJECT_BINARY_DIR}/generated)
 
-set(built_with "Eigen ${Eigen3_VERSION}" "Boost ${Boost_VERSION_STRING}" "NLopt ${NLOPT_VERSION}"
-               "Ceres ${Ceres_VERSION}" "CGAL ${CGAL_VERSION}" "GiNaC ${GINAC_VERSION}"
-               "oneTBB ${TBB_VERSION}" "netCDF ${netCDF_VERSION}" "SQLite ${SQLite3_VERSION}")
-if(SHOAL_IPOPT)
-  list(APPEND built_with "Ipopt ${IPOPT_VERSION}")
-endif()
+set(built_with "Eigen ${Eigen3_VERSION}" "Boost ${Boost_VERSION_STRING}" "oneTBB ${TBB_VERSION}"
+               "netCDF ${netCDF_VERSION}" "SQLite ${SQLite3_VERSION}")
+foreach(backend "NLOPT NLopt ${NLOPT_VERSION}" "CERES Ceres ${Ceres_VERSION}"
+                "IPOPT Ipopt ${IPOPT_VERSION}" "CGAL CGAL ${CGAL_VERSION}"
+                "GINAC GiNaC ${GINAC_VERSION}")
+  string(REGEX MATCH "^([A-Z]+) (.*)$" parts ${backend})
+  if(SHOAL_${CMAKE_MATCH_1})
+    list(APPEND built_with ${CMAKE_MATCH_2})
+  endif()
+endforeach()
 string(JOIN "|" built_with ${built_with})
 set_source_files_properties(
   analysis/build_info.cpp PROPERTIES COMPILE_DEFINITIONS "SHOAL_BUILT_WITH=\"${built_with}\"")

@@ -1,12 +1,12 @@
 # The Python package shoal, as it stands in the build tree (python/shoal) and, installed, where the
 # chosen Python looks.
 
-# Debian's own python3, not one that somebody put in front of it: it sees the Debian packages.
+# Debian's own python3, not one that stands before it in PATH: it sees the Debian packages.
 if(NOT DEFINED Python3_EXECUTABLE AND EXISTS /usr/bin/python3)
   set(Python3_EXECUTABLE /usr/bin/python3 CACHE FILEPATH "Python 3 with the Debian packages")
 endif()
 find_package(Python3 REQUIRED COMPONENTS Interpreter OPTIONAL_COMPONENTS Development.Module)
-# Where Debian's Python looks below a prefix of one's own.
+# Where Debian's Python looks below a prefix of your own.
 set(SHOAL_PYTHON_DIR "lib/python${Python3_VERSION_MAJOR}.${Python3_VERSION_MINOR}/dist-packages"
     CACHE STRING "Where the Python package is installed, below the prefix")
 if(SHOAL_PYTHON)

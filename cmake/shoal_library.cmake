@@ -20,16 +20,12 @@ target_compile_options(shoal_warnings INTERFACE -Wall -Wextra -Wpedantic -Wshado
 # shoal_library(LAYER PUBLIC ... PRIVATE ...): every .cpp of the layer, as a shared library.
 #
 # Shared, because members register themselves at start-up: out of a static library the linker would
-# drop every file that nobody calls by name. It also keeps the solvers' libraries out of what a
+# drop every file that is not called by name. It also keeps the solvers' libraries out of what a
 # user of shoal links.
 function(shoal_library layer)
   file(GLOB_RECURSE sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/${layer}/*.cpp)
   list(FILTER sources EXCLUDE REGEX "/(program|tools|python)/")
-  if(SHOAL_IPOPT)
-    list(FILTER sources EXCLUDE REGEX "/smooth/ipopt_left_out\\.cpp$")
-  else()
-    list(FILTER sources EXCLUDE REGEX "/smooth/ipopt\\.cpp$")
-  endif()
+  list(REMOVE_ITEM sources ${SHOAL_EXCLUDED_SOURCES})
   add_library(shoal_${layer} SHARED ${sources})
   add_library(shoal::${layer} ALIAS shoal_${layer})
   set_target_properties(shoal_${layer} PROPERTIES EXPORT_NAME ${layer} VERSION ${PROJECT_VERSION}
@@ -39,6 +35,8 @@ function(shoal_library layer)
   target_compile_features(shoal_${layer} PUBLIC cxx_std_20)
   # What a backend's static library brings stays inside: a user may link another version of it.
   target_link_options(shoal_${layer} PRIVATE LINKER:--exclude-libs,ALL)
+  # A program may know members by name only: its linker must not drop the library for that.
+  target_link_options(shoal_${layer} INTERFACE LINKER:--no-as-needed)
   # Neither changes a number: square roots need not set errno, and no one asks for floating-point traps.
   target_compile_options(shoal_${layer} PRIVATE -fno-semantic-interposition -fno-math-errno
                          -fno-trapping-math)

@@ -104,11 +104,18 @@ bool RegistryBase::has_below(std::string_view name) const {
 
 std::size_t RegistryBase::index_of(std::string_view name, const Origin& origin,
                                    const std::string& key) const {
-  if (const MemberInfo* found = find(name)) {
-    return static_cast<std::size_t>(found - members_.data());
+  const std::string where = key.empty() ? "" : key + ": ";
+  const MemberInfo* found = find(name);
+  if (!found) {
+    throw InputError(origin, where + "there is no " + family_ + " \"" + std::string(name) + '"' +
+                                 suggestion(name, names()));
   }
-  throw InputError(origin, (key.empty() ? "" : key + ": ") + "there is no " + family_ + " \"" +
-                               std::string(name) + '"' + suggestion(name, names()));
+  if (!found->left_out_by.empty()) {
+    throw InputError(origin, where + "the " + family_ + " \"" + found->name +
+                                 "\" was left out of this build; configure it with -D" +
+                                 found->left_out_by + "=ON");
+  }
+  return static_cast<std::size_t>(found - members_.data());
 }
 
 std::size_t RegistryBase::insert(MemberInfo info) {

@@ -22,6 +22,7 @@ struct MemberInfo {
   void (*check)(const Setting& table, const std::string& path);
   /// The options as given, completed by the defaults.
   Setting (*complete)(const Setting& table, const std::string& path);
+  std::string left_out_by;  ///< option of the build (`SHOAL_NLOPT`) without which it is not there
 };
 
 /// A family of interchangeable things (behaviours, currents ...), with the types erased.
@@ -43,7 +44,8 @@ class RegistryBase {
   /// Whether members are called `name.something`.
   bool has_below(std::string_view name) const;
 
-  /// Throws InputError, naming the known members, if there is none of that name.
+  /// Throws InputError, naming the known members, if there is none of that name, and if it was left
+  /// out of this build.
   std::size_t index_of(std::string_view name, const Origin& origin, const std::string& key) const;
 
  protected:

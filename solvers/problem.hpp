@@ -65,7 +65,7 @@ class Problem {
     return objective_->evaluate(x, gradient, hessian);
   }
 
-  Vector start;                 ///< metres, in the frame of the one who poses it
+  Vector start;                 ///< metres, in the frame of the caller
   std::optional<Vector> lower;  ///< both or none
   std::optional<Vector> upper;
   std::shared_ptr<const VectorFunction> constraints;  ///< g(x) >= 0; nullptr: none

@@ -9,7 +9,7 @@ namespace shoal::solvers {
 ///
 /// Costs templated on their scalar are differentiated exactly by evaluating them on it. (Dual
 /// numbers of dual numbers, ceres::Jet<ceres::Jet<...>>, would do the same, but refuse products
-/// with plain numbers, so that `2.0 * x` would not compile in somebody's cost.)
+/// with plain numbers, so that `2.0 * x` would not compile in a user's cost.)
 template <int N>
 struct Taylor {
   using Gradient = Eigen::Matrix<double, N, 1>;

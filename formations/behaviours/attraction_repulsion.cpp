@@ -1,4 +1,3 @@
-#include <boost/container/small_vector.hpp>
 #include <functional>
 #include <limits>
 #include <memory>
@@ -6,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "shoal/core/small_vector.hpp"
 #include "shoal/formations/behaviour.hpp"
 #include "shoal/formations/cohesion.hpp"
 #include "shoal/formations/lattice.hpp"
@@ -30,8 +30,8 @@ class AttractionRepulsionCost final : public solvers::Objective {
   double separation_m = 0.0;
   double share = 1.0;  // of each selected neighbour: 1 for a sum, 1/n for a mean
   Eigen::Vector2d anchor = Eigen::Vector2d::Zero();
-  double damping_per_m = 0.0;                                   // c / dt
-  boost::container::small_vector<Eigen::Vector2d, 8> selected;  // from `alike_from` on: like ones
+  double damping_per_m = 0.0;                // c / dt
+  SmallVector<Eigen::Vector2d, 8> selected;  // from `alike_from` on: like ones
   std::size_t alike_from = 0;
 
   double evaluate(const double* x, double* gradient, double* hessian) const override {

@@ -196,8 +196,8 @@ AssignmentSolver::Path AssignmentSolver::augment(int start, double rest, double 
   }
 }
 
-// Who led to a column was not noted on the way, which keeps the loop above free of branches; it is
-// the first row that gives the same distance again.
+// The row that led to a column was not noted on the way, which keeps the loop above free of
+// branches; it is the first row that gives the same distance again.
 void AssignmentSolver::flip_path(int column, double distance) {
   for (;;) {
     const double price = price_[at(column)];

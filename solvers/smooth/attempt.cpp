@@ -11,14 +11,14 @@ namespace {
 
 using Vector = Problem::Vector;
 /// For the derivatives of few unknowns without allocating.
-using Scratch = boost::container::small_vector<double, 36>;
+using Scratch = SmallVector<double, 36>;
 
 }  // namespace
 
 Attempt::Attempt(const Problem& problem, const Limits& limits)
     : problem_(problem),
       limits_(limits),
-      hemmed_in_(problem.lower || problem.upper || problem.constrained()),
+      restricted_(problem.lower || problem.upper || problem.constrained()),
       point_(problem.start),
       best_(Vector::Constant(problem.start.size(), std::numeric_limits<double>::quiet_NaN())) {
   wrong_ = flaw();
@@ -97,16 +97,16 @@ bool Attempt::reduced(const Function& function, const double* y, double& value, 
     value = function(y, gradient, hessian);
   } else {
     const int n = problem_.dimension();
-    Scratch slope(static_cast<std::size_t>(gradient ? n : 0)),
-        curvature(static_cast<std::size_t>(hessian ? n * n : 0));
-    value =
-        function(place(y), gradient ? slope.data() : nullptr, hessian ? curvature.data() : nullptr);
+    Scratch all_gradient(static_cast<std::size_t>(gradient ? n : 0)),
+        all_hessian(static_cast<std::size_t>(hessian ? n * n : 0));
+    value = function(place(y), gradient ? all_gradient.data() : nullptr,
+                     hessian ? all_hessian.data() : nullptr);
     for (int k = 0; gradient && k < free_count_; ++k) {
-      gradient[k] = slope[static_cast<std::size_t>(free(k))];
+      gradient[k] = all_gradient[static_cast<std::size_t>(free(k))];
     }
     for (int k = 0; hessian && k < free_count_ * free_count_; ++k) {
       hessian[k] =
-          curvature[static_cast<std::size_t>(free(k / free_count_) * n + free(k % free_count_))];
+          all_hessian[static_cast<std::size_t>(free(k / free_count_) * n + free(k % free_count_))];
     }
   }
   bool finite = std::isfinite(value);
@@ -120,19 +120,19 @@ Attempt::Outcome Attempt::evaluate(const double* y, double& cost, double* gradie
                                    double* hessian) {
   if (!may_go_on()) return Outcome::stop;
   return guarded([&] {
-    const auto objective = [this](const double* x, double* slope, double* curvature) {
-      return problem_.evaluate(x, slope, curvature);
+    const auto objective = [this](const double* x, double* all_gradient, double* all_hessian) {
+      return problem_.evaluate(x, all_gradient, all_hessian);
     };
     bool finite = reduced(objective, y, cost, gradient, hessian);
     if (gradient) {
       double squared = 0.0;
       for (int k = 0; k < free_count_; ++k) squared += gradient[k] * gradient[k];
       finite &= std::isfinite(squared);
-      if (finite) steepest_squared_ = std::max(steepest_squared_, squared);
+      if (finite) largest_gradient_squared_ = std::max(largest_gradient_squared_, squared);
     }
     if (finite) worst_cost_ = std::max(worst_cost_, cost);
     // Without bounds and constraints, most points are done with here.
-    if (finite && (hemmed_in_ || cost < best_cost_)) remember(all_free_ ? y : point_.data(), cost);
+    if (finite && (restricted_ || cost < best_cost_)) remember(all_free_ ? y : point_.data(), cost);
     return finite;
   });
 }
@@ -140,11 +140,11 @@ Attempt::Outcome Attempt::evaluate(const double* y, double& cost, double* gradie
 Attempt::Outcome Attempt::constrain(int k, const double* y, double& value, double* gradient,
                                     double* hessian) {
   if (stopped_) return Outcome::stop;
-  const auto constraint = [&](const double* x, double* slope, double* curvature) {
+  const auto constraint = [&](const double* x, double* all_gradient, double* all_hessian) {
     double at_x = 0.0;
     const bool equal = k >= constraints();
     const VectorFunction& function = equal ? *problem_.equalities : *problem_.constraints;
-    function.evaluate(equal ? k - constraints() : k, x, &at_x, slope, curvature);
+    function.evaluate(equal ? k - constraints() : k, x, &at_x, all_gradient, all_hessian);
     return at_x;
   };
   return guarded([&] { return reduced(constraint, y, value, gradient, hessian); });
@@ -191,7 +191,7 @@ Attempt::Outcome Attempt::residuals(int block, const double* y, double* values, 
 // one that costs less.
 void Attempt::remember(const double* x, double cost) {
   double violation = 0.0;
-  if (hemmed_in_) {
+  if (restricted_) {
     const Eigen::Map<const Eigen::VectorXd> here(x, point_.size());
     const double outside = bounds_violation(problem_, here);
     const double broken = constraint_violation(problem_, here);
@@ -225,13 +225,14 @@ bool Attempt::may_end_after(double step) {
 }
 
 bool Attempt::at_minimum() const {
-  double steepest = std::sqrt(steepest_squared_);
-  if (steepest == 0.0) {  // of a method that uses no derivatives: the slope at the start will do
-    Vector slope(problem_.dimension());
-    problem_.evaluate(problem_.start.data(), slope.data());
-    if (slope.allFinite()) steepest = slope.norm();
+  double largest_gradient = std::sqrt(largest_gradient_squared_);
+  if (largest_gradient ==
+      0.0) {  // of a method that uses no derivatives: the gradient at the start will do
+    Vector gradient(problem_.dimension());
+    problem_.evaluate(problem_.start.data(), gradient.data());
+    if (gradient.allFinite()) largest_gradient = gradient.norm();
   }
-  return is_local_minimum(problem_, best_, limits_.x_tolerance_m, steepest);
+  return is_local_minimum(problem_, best_, limits_.x_tolerance_m, largest_gradient);
 }
 
 Status Attempt::judge() const {
@@ -251,7 +252,7 @@ Solution Attempt::answer(Status status, int code, const char* says) const {
   solution.status = status;
   solution.backend_code = code;
   solution.backend_says = says;
-  if (std::isfinite(best_cost_) && hemmed_in_) {
+  if (std::isfinite(best_cost_) && restricted_) {
     solution.violation =
         std::max(bounds_violation(problem_, best_), constraint_violation(problem_, best_));
   }

@@ -1,9 +1,9 @@
 #pragma once
 
-#include <boost/container/small_vector.hpp>
 #include <chrono>
 #include <exception>
 
+#include "shoal/core/small_vector.hpp"
 #include "shoal/solvers/smooth/limits.hpp"
 #include "shoal/solvers/solver.hpp"
 
@@ -68,7 +68,7 @@ class Attempt {
   /// region is; then it may go on, for some more short steps.
   bool may_end_after(double step);
 
-  /// The highest cost so far: what a backend may be told that needs a number where there is none.
+  /// The highest cost so far: what a backend may be given that needs a number where there is none.
   /// -infinity before the first fine evaluation.
   double worst_cost() const { return worst_cost_; }
 
@@ -103,8 +103,8 @@ class Attempt {
   const Problem& problem_;
   const Limits limits_;
   const std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();
-  const bool hemmed_in_;  // by bounds or constraints
-  boost::container::small_vector<int, Unknowns::in_place> free_;
+  const bool restricted_;  // by bounds or constraints
+  SmallVector<int, Unknowns::in_place> free_;
   int free_count_ = 0;
   bool all_free_ = false;
   bool open_ = false;
@@ -114,7 +114,7 @@ class Attempt {
   double best_cost_ = std::numeric_limits<double>::infinity();
   double best_violation_ = 0.0;
   double worst_cost_ = -std::numeric_limits<double>::infinity();
-  double steepest_squared_ = 0.0;
+  double largest_gradient_squared_ = 0.0;
   double cost_of_blocks_ = 0.0;
   int next_block_ = 0;
   int short_steps_ = 0;  // in a row

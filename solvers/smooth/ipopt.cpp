@@ -65,7 +65,7 @@ class Posed final : public Ipopt::TNLP {
 
   bool eval_grad_f(Index, const Number* y, bool is_new, Number* gradient) override {
     if (!at(y, is_new)) return false;
-    std::copy_n(slope_.data(), n_, gradient);
+    std::copy_n(gradient_.data(), n_, gradient);
     return true;
   }
 
@@ -108,7 +108,7 @@ class Posed final : public Ipopt::TNLP {
       return true;
     }
     if (!at(y, is_new)) return false;
-    Eigen::MatrixXd sum = cost_factor * curvature_, hessian(n_, n_);
+    Eigen::MatrixXd sum = cost_factor * hessian_, hessian(n_, n_);
     Eigen::VectorXd gradient(n_);
     for (Index k = 0; k < m; ++k) {
       double value = 0.0;
@@ -144,7 +144,7 @@ class Posed final : public Ipopt::TNLP {
   bool at(const Number* y, bool is_new) {
     if (is_new || !known_) {
       known_ =
-          attempt_.evaluate(y, cost_, slope_.data(), curvature_.data()) == Attempt::Outcome::fine;
+          attempt_.evaluate(y, cost_, gradient_.data(), hessian_.data()) == Attempt::Outcome::fine;
     }
     return known_;
   }
@@ -154,8 +154,8 @@ class Posed final : public Ipopt::TNLP {
   int n_;
   bool known_ = false;
   double cost_ = 0.0;
-  Eigen::VectorXd slope_ = Eigen::VectorXd::Zero(n_);
-  Eigen::MatrixXd curvature_ = Eigen::MatrixXd::Zero(n_, n_);
+  Eigen::VectorXd gradient_ = Eigen::VectorXd::Zero(n_);
+  Eigen::MatrixXd hessian_ = Eigen::MatrixXd::Zero(n_, n_);
 };
 
 class InteriorPoint final : public Solver {

@@ -14,9 +14,9 @@ constexpr double slack = 10.0;  // the backends bound their last step, not the e
 using Vector = Problem::Vector;
 using Columns = Eigen::MatrixXd;
 
-/// What holds x back: bounds it lies on, constraints that are about zero, and both sides of
-/// equalities.
-struct Obstacles {
+/// The constraints that are active at x: bounds it lies on, constraints that are about zero, and
+/// both sides of equalities.
+struct ActiveSet {
   /// Behind a column: a function and its block, or none for a bound.
   struct Source {
     const VectorFunction* function = nullptr;
@@ -33,20 +33,20 @@ struct Obstacles {
   }
 };
 
-Obstacles obstacles_at(const Problem& problem, const Vector& x, double reach) {
-  Obstacles found;
+ActiveSet active_set_at(const Problem& problem, const Vector& x, double reach) {
+  ActiveSet found;
   const Eigen::Index n = x.size();
   found.normals.resize(n, 0);
   for (Eigen::Index i = 0; problem.lower && i < n; ++i) {
     if (x[i] - (*problem.lower)[i] <= reach) found.add(Eigen::VectorXd::Unit(n, i), {});
     if ((*problem.upper)[i] - x[i] <= reach) found.add(-Eigen::VectorXd::Unit(n, i), {});
   }
-  const auto visit = [&](const VectorFunction* function, auto active) {
+  const auto visit = [&](const VectorFunction* function, auto consider) {
     for (int k = 0; function && k < function->blocks(); ++k) {
       double value = 0.0;
       Eigen::VectorXd normal(n);
       function->evaluate(k, x.data(), &value, normal.data(), nullptr);
-      active(k, value, normal);
+      consider(k, value, normal);
     }
   };
   visit(problem.constraints.get(), [&](int k, double value, const Eigen::VectorXd& normal) {
@@ -58,15 +58,15 @@ Obstacles obstacles_at(const Problem& problem, const Vector& x, double reach) {
   return found;
 }
 
-/// The multipliers (at least zero) that leave the least of the slope: Lawson and Hanson 1974,
+/// The multipliers (at least zero) that leave the least of the gradient: Lawson and Hanson 1974,
 /// Solving least squares problems, ch. 23.
-Eigen::VectorXd multipliers(const Columns& normals, const Eigen::VectorXd& slope) {
+Eigen::VectorXd multipliers(const Columns& normals, const Eigen::VectorXd& gradient) {
   const Eigen::Index count = normals.cols();
   Eigen::VectorXd best = Eigen::VectorXd::Zero(count);
   std::vector<Eigen::Index> used;
-  const double rounding = 1e-12 * slope.norm();
+  const double rounding = 1e-12 * gradient.norm();
   for (Eigen::Index round = 0; round < 3 * count; ++round) {
-    const Eigen::VectorXd gain = normals.transpose() * (slope - normals * best);
+    const Eigen::VectorXd gain = normals.transpose() * (gradient - normals * best);
     Eigen::Index next = -1;
     for (Eigen::Index k = 0; k < count; ++k) {
       if (std::ranges::find(used, k) != used.end()) continue;
@@ -77,7 +77,7 @@ Eigen::VectorXd multipliers(const Columns& normals, const Eigen::VectorXd& slope
     used.push_back(next);
     while (!used.empty()) {
       const Eigen::MatrixXd part = normals(Eigen::all, used);
-      const Eigen::VectorXd fit = part.completeOrthogonalDecomposition().solve(slope);
+      const Eigen::VectorXd fit = part.completeOrthogonalDecomposition().solve(gradient);
       if (fit.minCoeff() > 0.0) {
         best.setZero();
         for (std::size_t k = 0; k < used.size(); ++k)
@@ -110,27 +110,27 @@ using Part = Eigen::Matrix<double, N, 1, 0, Max, 1>;
 template <int N, int Max>
 using Square = Eigen::Matrix<double, N, N, 0, Max, Max>;
 
-/// Whether Newton's step is short, and nothing leads down from here. Directions without a bend have
-/// no such step: there the slope must be negligible.
+/// Whether Newton's step is short, and nothing leads down from here. Directions without curvature
+/// have no such step: there the gradient must be negligible.
 template <int N, int Max>
-bool lowest_around(const Part<N, Max>& slope, const Square<N, Max>& curvature, double longest,
-                   double steepest) {
+bool lowest_around(const Part<N, Max>& gradient, const Square<N, Max>& hessian, double longest,
+                   double largest_gradient) {
   constexpr double flat = 1e-6;
-  const Eigen::LLT<Square<N, Max>> factor(curvature);  // the usual case, and fast
+  const Eigen::LLT<Square<N, Max>> factor(hessian);  // the usual case, and fast
   if (factor.info() == Eigen::Success) {
-    const Part<N, Max> step = factor.solve(slope);
+    const Part<N, Max> step = factor.solve(gradient);
     if (step.norm() <= longest) return true;
   }
-  const Eigen::SelfAdjointEigenSolver<Square<N, Max>> eigen(curvature);
-  const Part<N, Max>& bends = eigen.eigenvalues();
-  const Part<N, Max> along = eigen.eigenvectors().transpose() * slope;
-  const double largest = bends.cwiseAbs().maxCoeff();
+  const Eigen::SelfAdjointEigenSolver<Square<N, Max>> eigen(hessian);
+  const Part<N, Max>& eigenvalues = eigen.eigenvalues();
+  const Part<N, Max> along = eigen.eigenvectors().transpose() * gradient;
+  const double largest = eigenvalues.cwiseAbs().maxCoeff();
   double squared = 0.0;
-  for (Eigen::Index i = 0; i < bends.size(); ++i) {
-    if (bends[i] < -negligible_bend * largest) return false;
-    if (bends[i] > bend_of_rounding * largest) {
-      squared += along[i] * along[i] / (bends[i] * bends[i]);
-    } else if (std::abs(along[i]) > flat * steepest) {
+  for (Eigen::Index i = 0; i < eigenvalues.size(); ++i) {
+    if (eigenvalues[i] < -negligible_curvature * largest) return false;
+    if (eigenvalues[i] > curvature_of_rounding * largest) {
+      squared += along[i] * along[i] / (eigenvalues[i] * eigenvalues[i]);
+    } else if (std::abs(along[i]) > flat * largest_gradient) {
       return false;
     }
   }
@@ -139,51 +139,51 @@ bool lowest_around(const Part<N, Max>& slope, const Square<N, Max>& curvature, d
 
 /// Of at most Max unknowns.
 template <int Max>
-bool is_minimum(const Problem& problem, const Vector& x, double longest, double steepest) {
+bool is_minimum(const Problem& problem, const Vector& x, double longest, double largest_gradient) {
   constexpr int N = Eigen::Dynamic;
-  Part<N, Max> slope(x.size());
-  Square<N, Max> curvature(x.size(), x.size());
-  problem.evaluate(x.data(), slope.data(), curvature.data());
-  if (!slope.allFinite() || !curvature.allFinite()) return false;
+  Part<N, Max> gradient(x.size());
+  Square<N, Max> hessian(x.size(), x.size());
+  problem.evaluate(x.data(), gradient.data(), hessian.data());
+  if (!gradient.allFinite() || !hessian.allFinite()) return false;
   if (!problem.lower && !problem.constrained()) {
     switch (x.size()) {  // the usual case at every ping
       case 2:
-        return lowest_around<2, 2>(slope, curvature, longest, steepest);
+        return lowest_around<2, 2>(gradient, hessian, longest, largest_gradient);
       case 3:
-        return lowest_around<3, 3>(slope, curvature, longest, steepest);
+        return lowest_around<3, 3>(gradient, hessian, longest, largest_gradient);
       default:
-        return lowest_around<N, Max>(slope, curvature, longest, steepest);
+        return lowest_around<N, Max>(gradient, hessian, longest, largest_gradient);
     }
   }
 
-  const Obstacles obstacles = obstacles_at(problem, x, longest);
-  const Eigen::VectorXd pressure = multipliers(obstacles.normals, slope);
-  std::vector<Eigen::Index> pressing;
-  for (Eigen::Index k = 0; k < pressure.size(); ++k) {
-    if (!(pressure[k] > 0.0)) continue;
-    pressing.push_back(k);
-    slope -= pressure[k] * obstacles.normals.col(k);
-    const Obstacles::Source& source = obstacles.sources[static_cast<std::size_t>(k)];
+  const ActiveSet active = active_set_at(problem, x, longest);
+  const Eigen::VectorXd multiplier = multipliers(active.normals, gradient);
+  std::vector<Eigen::Index> binding;
+  for (Eigen::Index k = 0; k < multiplier.size(); ++k) {
+    if (!(multiplier[k] > 0.0)) continue;
+    binding.push_back(k);
+    gradient -= multiplier[k] * active.normals.col(k);
+    const ActiveSet::Source& source = active.sources[static_cast<std::size_t>(k)];
     if (!source.function) continue;
     double value = 0.0;
-    Square<N, Max> bend(x.size(), x.size());
-    source.function->evaluate(source.block, x.data(), &value, nullptr, bend.data());
-    curvature -= pressure[k] * source.sign * bend;
+    Square<N, Max> constraint_hessian(x.size(), x.size());
+    source.function->evaluate(source.block, x.data(), &value, nullptr, constraint_hessian.data());
+    hessian -= multiplier[k] * source.sign * constraint_hessian;
   }
   // Equalities hold it back also where nothing presses against them.
-  for (Eigen::Index k = 0; k < pressure.size(); ++k) {
+  for (Eigen::Index k = 0; k < multiplier.size(); ++k) {
     const bool equal =
-        obstacles.sources[static_cast<std::size_t>(k)].function == problem.equalities.get();
-    if (problem.equalities && equal && !(pressure[k] > 0.0)) pressing.push_back(k);
+        active.sources[static_cast<std::size_t>(k)].function == problem.equalities.get();
+    if (problem.equalities && equal && !(multiplier[k] > 0.0)) binding.push_back(k);
   }
-  if (pressing.empty()) return lowest_around<N, Max>(slope, curvature, longest, steepest);
-  const Eigen::MatrixXd held = obstacles.normals(Eigen::all, pressing);
+  if (binding.empty()) return lowest_around<N, Max>(gradient, hessian, longest, largest_gradient);
+  const Eigen::MatrixXd held = active.normals(Eigen::all, binding);
   const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(held);
   const Eigen::MatrixXd basis = qr.householderQ() * Eigen::MatrixXd::Identity(x.size(), x.size());
   const Eigen::MatrixXd surface = basis.rightCols(x.size() - qr.rank());
   if (surface.cols() == 0) return true;  // held in every direction
-  return lowest_around<N, Max>(surface.transpose() * slope,
-                               surface.transpose() * curvature * surface, longest, steepest);
+  return lowest_around<N, Max>(surface.transpose() * gradient,
+                               surface.transpose() * hessian * surface, longest, largest_gradient);
 }
 
 }  // namespace
@@ -209,11 +209,11 @@ double constraint_violation(const Problem& problem, const Eigen::Ref<const Eigen
 }
 
 bool is_local_minimum(const Problem& problem, const Vector& x, double x_tolerance_m,
-                      double steepest) {
+                      double largest_gradient) {
   const double longest = slack * x_tolerance_m;
   constexpr int few = Unknowns::in_place;
-  return x.size() <= few ? is_minimum<few>(problem, x, longest, steepest)
-                         : is_minimum<Eigen::Dynamic>(problem, x, longest, steepest);
+  return x.size() <= few ? is_minimum<few>(problem, x, longest, largest_gradient)
+                         : is_minimum<Eigen::Dynamic>(problem, x, longest, largest_gradient);
 }
 
 }  // namespace shoal::solvers

@@ -36,47 +36,48 @@ template <int N>
 struct Point {
   Vec<N> x;
   double cost = 0.0;
-  Vec<N> slope;
-  Mat<N> curvature;
+  Vec<N> gradient;
+  Mat<N> hessian;
 
   explicit Point(const Vec<N>& place)
-      : x(place), slope(place.size()), curvature(place.size(), place.size()) {}
+      : x(place), gradient(place.size()), hessian(place.size(), place.size()) {}
 
   Attempt::Outcome evaluate(Attempt& attempt) {
-    return attempt.evaluate(x.data(), cost, slope.data(), curvature.data());
+    return attempt.evaluate(x.data(), cost, gradient.data(), hessian.data());
   }
 };
 
-/// A step of at most `radius` down the slope: Newton's where the cost curves upwards. In a
+/// A step of at most `radius` down the gradient: Newton's where the cost curves upwards. In a
 /// direction in which it curves downwards, Newton's step would lead up; there the step goes down
-/// the slope by as much, and not at all if there is no slope. (The lowest point of the model within
-/// the radius, Moré and Sorensen 1983, would leave the slope for a direction that curves downwards:
-/// a vehicle pushed off by a single neighbour would swerve around it.)
+/// the gradient by as much, and not at all if there is no gradient. (The lowest point of the model
+/// within the radius, Moré and Sorensen 1983, would leave the gradient for a direction that curves
+/// downwards: a vehicle pushed off by a single neighbour would swerve around it.)
 template <int N>
-Vec<N> step_down(const Vec<N>& slope, const Mat<N>& curvature, double radius, double shortest) {
-  const Eigen::LLT<Mat<N>> factor(curvature);
+Vec<N> step_down(const Vec<N>& gradient, const Mat<N>& hessian, double radius, double shortest) {
+  const Eigen::LLT<Mat<N>> factor(hessian);
   if (factor.info() == Eigen::Success) {
     const auto pivots = factor.matrixLLT().diagonal().array().square();
-    const Vec<N> newton = -factor.solve(slope);
-    // Of a bend that is rounding, a long step would be made.
-    if (pivots.minCoeff() > bend_of_rounding * pivots.maxCoeff() &&
+    const Vec<N> newton = -factor.solve(gradient);
+    // A curvature that is rounding would make a long step.
+    if (pivots.minCoeff() > curvature_of_rounding * pivots.maxCoeff() &&
         newton.squaredNorm() <= radius * radius) {
       return newton;
     }
   }
-  const Eigen::SelfAdjointEigenSolver<Mat<N>> eigen(curvature);
-  const Vec<N>& bends = eigen.eigenvalues();
-  const Vec<N> along = eigen.eigenvectors().transpose() * slope;
-  const double largest = std::max(bends.cwiseAbs().maxCoeff(), std::numeric_limits<double>::min());
-  const Vec<N> sizes = bends.cwiseAbs().cwiseMax(bend_of_rounding * largest);
+  const Eigen::SelfAdjointEigenSolver<Mat<N>> eigen(hessian);
+  const Vec<N>& eigenvalues = eigen.eigenvalues();
+  const Vec<N> along = eigen.eigenvectors().transpose() * gradient;
+  const double largest =
+      std::max(eigenvalues.cwiseAbs().maxCoeff(), std::numeric_limits<double>::min());
+  const Vec<N> sizes = eigenvalues.cwiseAbs().cwiseMax(curvature_of_rounding * largest);
   const auto step = [&](double shift) { return Vec<N>(-along.array() / (sizes.array() + shift)); };
 
   // |p| falls as the shift grows; here no part of it is longer than the radius, and the whole not
   // shorter unless the shift is zero.
   double shift = std::max(0.0, (along.cwiseAbs() / radius - sizes).maxCoeff());
   Vec<N> p = step(shift);
-  if (shift == 0.0 && p.norm() <= shortest && bends[0] < -negligible_bend * largest) {
-    // A saddle or a summit: no slope, but ways down.
+  if (shift == 0.0 && p.norm() <= shortest && eigenvalues[0] < -negligible_curvature * largest) {
+    // A saddle or a summit: no gradient, but ways down.
     p.setZero();
     p[0] = along[0] > 0.0 ? -radius : radius;
     return eigen.eigenvectors() * p;
@@ -113,10 +114,10 @@ class Descent {
 
     while (radius >= shortest) {
       const Vec<N> step = attempt_.bounded() ? step_inside_bounds(here, radius)
-                                             : step_down<N>(here.slope, here.curvature, radius,
+                                             : step_down<N>(here.gradient, here.hessian, radius,
                                                             options_.x_tolerance_m);
       const double length = step.norm();
-      const double expected = -(here.slope.dot(step) + 0.5 * step.dot(here.curvature * step));
+      const double expected = -(here.gradient.dot(step) + 0.5 * step.dot(here.hessian * step));
       if (length <= options_.x_tolerance_m && length < 0.9 * radius && !attempt_.bounded()) {
         // A whole Newton step, and nothing leads down: a minimum is as near as asked.
         return attempt_.finish_converged("Newton's step is within the tolerance");
@@ -144,23 +145,24 @@ class Descent {
   }
 
  private:
-  // Unknowns at a bound that the slope presses them against stay; the others go as far as theirs.
+  // Unknowns at a bound that the gradient presses them against stay; the others go as far as
+  // theirs.
   Vec<N> step_inside_bounds(const Point<N>& here, double radius) const {
-    Vec<N> slope = here.slope;
-    Mat<N> curvature = here.curvature;
-    Eigen::Array<bool, N, 1> held(slope.size());
-    for (Eigen::Index i = 0; i < slope.size(); ++i) {
-      held[i] = (here.x[i] <= lower_[i] && slope[i] >= 0.0) ||
-                (here.x[i] >= upper_[i] && slope[i] <= 0.0);
+    Vec<N> gradient = here.gradient;
+    Mat<N> hessian = here.hessian;
+    Eigen::Array<bool, N, 1> held(gradient.size());
+    for (Eigen::Index i = 0; i < gradient.size(); ++i) {
+      held[i] = (here.x[i] <= lower_[i] && gradient[i] >= 0.0) ||
+                (here.x[i] >= upper_[i] && gradient[i] <= 0.0);
       if (!held[i]) continue;
-      slope[i] = 0.0;
-      curvature.row(i).setZero();
-      curvature.col(i).setZero();
-      curvature(i, i) = 1.0;
+      gradient[i] = 0.0;
+      hessian.row(i).setZero();
+      hessian.col(i).setZero();
+      hessian(i, i) = 1.0;
     }
-    const Vec<N> step = step_down<N>(slope, curvature, radius, options_.x_tolerance_m);
+    const Vec<N> step = step_down<N>(gradient, hessian, radius, options_.x_tolerance_m);
     Vec<N> end = (here.x + step).cwiseMax(lower_).cwiseMin(upper_);
-    for (Eigen::Index i = 0; i < slope.size(); ++i) {
+    for (Eigen::Index i = 0; i < gradient.size(); ++i) {
       if (held[i]) end[i] = here.x[i];
     }
     return end - here.x;

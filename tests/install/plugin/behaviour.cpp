@@ -1,4 +1,4 @@
-// A behaviour of one's own: to the centroid of the neighbours.
+// A behaviour of your own: to the centroid of the neighbours.
 
 #include <shoal/formations/behaviour.hpp>
 

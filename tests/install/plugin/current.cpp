@@ -1,4 +1,4 @@
-// A current of one's own: a jet towards east along the line y = 0.
+// A current of your own: a jet towards east along the line y = 0.
 
 #include <cmath>
 #include <shoal/scenarios/currents/current.hpp>

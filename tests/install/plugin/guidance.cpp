@@ -1,4 +1,4 @@
-// A guidance law of one's own: straight to the target, always.
+// A guidance law of your own: straight to the target, always.
 
 #include <cmath>
 #include <shoal/formations/guidance.hpp>

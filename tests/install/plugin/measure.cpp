@@ -1,4 +1,4 @@
-// A measure of one's own: how far east the centroid is at the end.
+// A measure of your own: how far east the centroid is at the end.
 
 #include <shoal/analysis/measure.hpp>
 

@@ -1,4 +1,4 @@
-// A pair potential of one's own, and the mark that makes this library a plugin.
+// A pair potential of your own, and the mark that makes this library a plugin.
 
 #include <shoal/core/plugin.hpp>
 #include <shoal/formations/potential.hpp>
@@ -24,4 +24,4 @@ struct MySpring final : Potential {
   }
 };
 
-const Register<Potential, MySpring> registered{"my_spring", "a spring of one's own"};
+const Register<Potential, MySpring> registered{"my_spring", "a spring of your own"};
