@@ -32,7 +32,7 @@ struct Situation {
 };
 
 /// Problems that trials posed. Not the problems are kept but all that their behaviours need to pose
-/// them again, bit for bit: so every behaviour and every cost, also one's own, can be recorded.
+/// them again, bit for bit: so every behaviour and every cost, also your own, can be recorded.
 struct Corpus {
   std::vector<Experiment> experiments;
   std::vector<Situation> situations;

@@ -10,7 +10,7 @@
 namespace shoal::analysis {
 
 /// A model as a table: a row of outputs for every row of inputs, each row by itself. It lets
-/// anybody compare a model of ours with another implementation of it (`shoal eval`).
+/// users compare a model of ours with another implementation of it (`shoal eval`).
 ///
 ///     struct Squares final : Evaluation {
 ///       std::vector<Column> inputs() const override { return {{"x_m", "m, a length"}}; } ...

@@ -14,7 +14,7 @@ struct Origin {
   std::string prefix() const;
 };
 
-/// Somebody's input cannot be used. The message says where, what is wrong and what to do.
+/// Input that cannot be used. The message says where, what is wrong and what to do.
 class InputError : public std::runtime_error {
  public:
   InputError(const Origin& origin, const std::string& message)

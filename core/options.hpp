@@ -125,7 +125,7 @@ class Options {
   template <class Nested>
   void tables(std::string name, std::vector<Nested> T::*member, std::string meaning);
 
-  /// A value whose form is somebody else's affair; `type` says what it takes, for messages.
+  /// A value whose form is checked elsewhere; `type` says what it takes, for messages.
   void setting(std::string name, Setting T::*member, std::string type, std::string meaning);
 
   /// A member of a family: `name.kind = "x"`, its options in the table `name.x`.

@@ -11,7 +11,7 @@
 
 namespace shoal {
 
-/// A value as somebody wrote it, and where: the neutral form between files, `--set` and structs.
+/// A value as it was written, and where: the neutral form between files, `--set` and structs.
 ///
 /// Tables keep the order of writing. Values written by hand and by the program are alike.
 struct Setting {

@@ -30,8 +30,8 @@ struct Neighbour {
   double heading_rad = 0.0;
 };
 
-/// All that a behaviour is told: who is around, which slot is the own one, where the vehicle is and
-/// how it moves, and what it is to keep clear of.
+/// All that a behaviour knows: which vehicles are around, which slot is the own one, where the
+/// vehicle is and how it moves, and what it is to keep clear of.
 struct Neighbourhood {
   std::span<const Neighbour> neighbours;
   int own_slot = 0;

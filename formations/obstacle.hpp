@@ -41,7 +41,7 @@ class Obstacle {
   Obstacle& operator=(const Obstacle&) = default;
 };
 
-/// Obstacles that somebody else keeps alive.
+/// Obstacles that are owned elsewhere.
 using Obstacles = std::span<const std::shared_ptr<const Obstacle>>;
 
 }  // namespace shoal::formations

@@ -42,8 +42,9 @@ struct PingFilterOptions {
 /// fixed frame with axes east and north.
 ///
 /// Pings with an id belong to the track of that slot. Pings without are given to the nearest track
-/// inside `gate_m` that was not heard within the last `rest_s` (nobody pings twice in so short a
-/// time); if there is none, a new track begins. Tracks unheard for `contact_timeout_s` are dropped.
+/// inside `gate_m` that was not heard within the last `rest_s` (no vehicle pings twice in so short
+/// a time); if there is none, a new track begins. Tracks unheard for `contact_timeout_s` are
+/// dropped.
 ///
 /// A neighbour whose last ping carried its state is taken at its word instead, and to move on as it
 /// did then (Barisic et al. 2011, sec. 3: agents tell one another their states).
@@ -69,7 +70,7 @@ class PingFilter {
     int slot = anonymous;
     double heard_s = 0.0;
     Eigen::Vector2d position = Eigen::Vector2d::Zero();  // in the frame of the own positions
-    std::optional<OwnState> state;                       // as told by the last ping
+    std::optional<OwnState> state;                       // as the last ping said
     std::vector<Sample> samples;
   };
 

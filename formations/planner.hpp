@@ -37,7 +37,7 @@ class PlanObserver : public solvers::SolveObserver {
 
 /// The formation planner of one vehicle: pings in, targets and commands out.
 ///
-/// This is what a vehicle, or a simulator, links. It needs no simulation of ours, no files, threads
+/// This is what a vehicle, or a simulator, links. It needs no simulation, no files, threads
 /// or global state, and does not allocate once it has met its neighbours. A copy goes on as the
 /// original does.
 ///

@@ -27,7 +27,7 @@ class Potential {
     return std::nullopt;
   }
 
-  /// Told once, before it is shared, which separation is to come: it may compute ahead.
+  /// Called once, before it is shared, with the separation to come: it may compute ahead.
   virtual void prepare(double separation_m) { (void)separation_m; }
 };
 

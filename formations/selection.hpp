@@ -12,7 +12,7 @@ namespace shoal::formations {
 /// Chooses the neighbours that a vehicle goes by, out of those in range.
 ///
 /// The choice depends on the positions only: not on ids or ages, nor (ties aside) on the order of
-/// the neighbours, a rotation or a mirror. Out of some neighbours at least one is chosen, nobody
+/// the neighbours, a rotation or a mirror. Out of some neighbours at least one is chosen, none
 /// twice. Stateless and thread-safe.
 class Selection {
  public:

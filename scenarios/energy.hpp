@@ -10,7 +10,7 @@ namespace shoal::scenarios {
 ///
 /// The shaft power is c_d |v|^3, the electrical power that over the efficiency. Equation 4.2 puts
 /// the same efficiency into c_d, so it cancels: P = power_w (|v| / speed_m_s)^3. It is declared
-/// nevertheless, because a user who gives another drag gives it as mechanical power.
+/// nevertheless, because a user with another drag gives it as mechanical power.
 ///
 /// The author's program draws a flat power while the vehicle turns in place, which eq. 4.3 omits.
 ///

@@ -75,7 +75,7 @@ std::vector<std::string> library_scenarios() {
 
 std::vector<std::string> library_sets() {
   const fs::path folder = library_path() / sets_folder;
-  std::error_code ignored;  // a library of one's own may have none
+  std::error_code ignored;  // a library of your own may have none
   return fs::is_directory(folder, ignored) ? names_in(folder) : std::vector<std::string>{};
 }
 

@@ -18,7 +18,7 @@ class NetcdfGuard {
 };
 
 /// Reads a file in a child process, and throws away what was read. HDF5 may crash, loop or ask for
-/// any memory on a damaged file, and no check of ours comes before that.
+/// any memory on a damaged file, and no check of shoal comes before that.
 ///
 /// `bytes` is the size of the file, which sets how much time and memory it may take. Throws
 /// InputError if the child crashes or exceeds them; a child that is blocked is begun again. What

@@ -145,7 +145,7 @@ class CrossChecks {
  private:
   using Keys = std::initializer_list<std::string>;
 
-  /// Points at the first of these keys that somebody wrote.
+  /// Points at the first of these keys that was written.
   [[noreturn]] void refuse(Keys keys, const std::string& why) const {
     for (const std::string& key : keys) {
       if (const Setting* written = root_.find_path(key)) throw InputError(written->origin, why);
@@ -201,8 +201,9 @@ class CrossChecks {
   void hearing() const {
     if (s_.ping.identified) return;
     if (s_.behaviour.make()->needs_ids()) {
-      refuse({"ping.identified"}, "behaviour " + s_.behaviour.kind() +
-                                      " needs to know who pings; set ping.identified = true");
+      refuse({"ping.identified"},
+             "behaviour " + s_.behaviour.kind() +
+                 " needs to know which vehicle pings; set ping.identified = true");
     }
     if (s_.ping_filter.rest_s >= s_.ping.period_s) {
       refuse({"ping_filter.rest_s", "ping.period_s"},
@@ -244,7 +245,7 @@ class CrossChecks {
   const Setting& root_;
 };
 
-/// `inherits` is no option of a scenario, but what somebody may have meant.
+/// `inherits` is no option of a scenario, but may have been meant.
 void require_known_names(const Setting& root) {
   std::vector<std::string> known = schema_of<Scenario>().names();
   known.emplace_back(inherits_key);

@@ -119,7 +119,7 @@ Scenario read_scenario(const Setting& root);
 /// The file of a scenario given by path, or by its name in the library. Throws InputError.
 std::filesystem::path find_scenario(const std::string& name_or_path);
 
-/// The whole scenario, also what nobody set.
+/// The whole scenario, also what was not set.
 Setting resolved_scenario(const Scenario& scenario);
 
 /// How many ticks a period has. Throws InputError, naming `key`, unless it is a whole number.

@@ -286,7 +286,7 @@ void World::listen_and_plan(std::size_t i, std::int64_t tick) {
   }
   if (due) {
     const formations::Target& target = planners_[i].plan(now, swarm_->own_state(i));
-    // Who hears nobody any more must notice without being told.
+    // A vehicle that hears no other any more must notice without a ping.
     forget_tick_[i] =
         target.reason == formations::Reason::no_neighbour ? never : tick + forget_ticks_;
   }

@@ -14,7 +14,7 @@ namespace shoal::scenarios {
 
 class World;
 
-/// Somebody who looks at the world from time to time and changes nothing.
+/// Looks at the world from time to time and changes nothing.
 class Observer {
  public:
   virtual ~Observer() = default;
@@ -37,7 +37,7 @@ struct Logbook {
 /// A swarm in its sea.
 ///
 /// Time goes in ticks. Between the instants at which vehicles influence one another (pings, losses)
-/// or somebody looks, every vehicle listens, plans, is guided and moves on its own; blocks of
+/// or an observer looks, every vehicle listens, plans, is guided and moves on its own; blocks of
 /// vehicles run through such a stretch in parallel, and the numbers do not depend on how many
 /// threads there are. Nothing is allocated in the steady state.
 class World {

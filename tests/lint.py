@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""tests/lint.py BUILD_DIR...: clang-format and clang-tidy on everything of ours.
+"""tests/lint.py BUILD_DIR...: clang-format and clang-tidy on all sources.
 
 Sources that a unity build compiles as one are read as one, which takes a quarter of the time; give
 such a build first, and then others for what it leaves out. What clang-tidy found clean is not read

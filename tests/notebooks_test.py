@@ -15,7 +15,7 @@ import nbformat
 
 FOLDER = pathlib.Path(__file__).resolve().parent.parent / "notebooks"
 SECONDS_A_CELL = 300
-os.environ["PYDEVD_DISABLE_FILE_VALIDATION"] = "1"  # of the kernel's debugger, which nobody uses
+os.environ["PYDEVD_DISABLE_FILE_VALIDATION"] = "1"  # of the kernel's debugger, which is not used
 
 
 def executed(notebook):

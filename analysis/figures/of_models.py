@@ -26,7 +26,7 @@ def attraction_repulsion(run):
     if shoal is None or behaviour["kind"] != "attraction_repulsion":
         return None
     options = behaviour["attraction_repulsion"]
-    # A function of Python's is known to the program that ran it, and to nobody else.
+    # A Python function is known only to the program that ran it.
     return None if options["potential"]["kind"] == "python" else options
 
 
@@ -54,7 +54,7 @@ def potential(run):
 
 def cost_surface(run):
     """The cost that the first vehicle meets at the end of the run, by where it would go, and where
-    it is told to go: Rypkema 2015, figure 3.7."""
+    its target says: Rypkema 2015, figure 3.7."""
     options = attraction_repulsion(run)
     if options is None:
         return None
@@ -102,7 +102,7 @@ def filter_lag(run):
     if shoal is None or x.shape[1] < 2:
         return None
     farthest = numpy.hypot(x[:, 1:] - x[:, :1], y[:, 1:] - y[:, :1]).max(axis=0)
-    if numpy.isnan(farthest).all():  # somebody was lost from every pair
+    if numpy.isnan(farthest).all():  # each pair has lost a vehicle
         return None
     pair = (0, 1 + int(numpy.nanargmin(farthest)))
     ping, last = run.scenario["ping"], run.time_s[-1]

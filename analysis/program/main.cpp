@@ -106,7 +106,7 @@ int shoal_program(int argc, char** argv) {
   app.set_version_flag("--version", "shoal " SHOAL_VERSION);
   std::vector<std::string> plugins;  // see load_plugins()
   app.add_option("--plugin", plugins,
-                 "shared library with members of one's own; before the command, and may be given "
+                 "shared library with members of your own; before the command, and may be given "
                  "several times")
       ->expected(1)
       ->take_all();

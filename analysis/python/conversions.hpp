@@ -22,7 +22,7 @@ py::object to_python(const Setting& setting);
 
 using Array = py::array_t<double, py::array::c_style | py::array::forcecast>;
 
-/// What a function of Python's returned, `what` in messages. Throws InputError unless it is one
+/// What a Python function returned, `what` in messages. Throws InputError unless it is one
 /// real number, or an array of real numbers (for None, text, complex numbers ...); what a
 /// conversion raises comes out as it is. NaN and infinity pass.
 double real_number(py::handle answer, const std::string& what);

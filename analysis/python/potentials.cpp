@@ -16,7 +16,7 @@ namespace {
 using formations::Potential;
 using formations::RadialValue;
 
-/// Functions of Python's, (r, s) -> (value, slope, curvature), by name and hash. Never destroyed:
+/// Python functions, (r, s) -> (value, slope, curvature), by name and hash. Never destroyed:
 /// the interpreter may be gone before.
 class Functions {
  public:
@@ -190,7 +190,7 @@ class PythonPotential final : public Potential {
 };
 
 const Register<Potential, PythonFunction> registered{
-    "python", "a function of Python's",
+    "python", "a Python function",
     [](const PythonFunction& function) { return std::make_unique<PythonPotential>(function); }};
 
 /// A potential by kind and options, ready for one separation after the other.

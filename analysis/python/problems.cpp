@@ -16,8 +16,8 @@ using solvers::Problem;
 using solvers::Solution;
 using Vector = Eigen::VectorXd;
 
-/// A cost of Python's. Derivatives that are not given are central differences: of the gradient
-/// where there is one, else of the cost.
+/// A cost that is a Python function. Derivatives that are not given are central differences: of the
+/// gradient where there is one, else of the cost.
 class PythonCost final : public solvers::Objective {
  public:
   struct Functions {

@@ -69,7 +69,7 @@ py::dict sweep(const py::object& study, const std::string& folder, int jobs, int
   return counts(done);
 }
 
-/// An open sweep whose trials somebody else runs.
+/// An open sweep whose trials run elsewhere.
 class Sweep {
  public:
   Sweep(const py::object& study, const std::string& folder, int replications, bool rerun_changed,

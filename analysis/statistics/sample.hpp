@@ -7,7 +7,7 @@ namespace shoal::analysis::statistics {
 
 /// Independent observations of one number: a measure of trials under different seeds, or the
 /// differences of two conditions under the same seeds. All statistics throw std::invalid_argument
-/// if a value is not finite; whoever has trials without a value says first what to make of them.
+/// if a value is not finite; what becomes of trials without a value is decided before.
 using Sample = std::span<const double>;
 
 void require_finite(Sample values);

@@ -18,7 +18,7 @@ struct Summary {
 Summary summarise(Sample values);
 
 /// The p-quantile: linear between the order statistics, of which the first is the 0- and the last
-/// the 1-quantile (type 7 of Hyndman and Fan 1996; what R and NumPy do unless told otherwise). NaN
+/// the 1-quantile (type 7 of Hyndman and Fan 1996; the default of R and NumPy). NaN
 /// for n = 0. Throws std::invalid_argument unless p lies in [0, 1].
 double quantile(Sample values, double p);
 

@@ -82,7 +82,7 @@ CellScenario CellScenarios::of(std::size_t group_index, std::size_t cell) {
   made.scenario.trial.record_every_s = 0.0;
 
   Setting written = scenarios::resolved_scenario(made.scenario);
-  // Why a trial fails must not depend on who runs it: the lines of files are known here only.
+  // Why a trial fails must not depend on where it runs: the lines of files are known here only.
   made.scenario = scenarios::read_scenario(written);
   visit_options(schema_of<scenarios::Scenario>(), written,
                 [&](const Option& option, Setting& value) {

@@ -35,7 +35,7 @@ class CellScenarios {
   const std::string& content_hash(const FilePath& file);
 
   const StudyPlan& plan_;
-  scenarios::TomlFiles files_;  // of one state: nobody changes a sweep by an edit in mid-way
+  scenarios::TomlFiles files_;  // of one state: an edit in mid-way does not change a sweep
   std::map<std::string, std::string> content_hashes_;
 };
 

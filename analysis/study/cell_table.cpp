@@ -232,9 +232,9 @@ class CellTable {
     floor_ = note_on_floor(differences, request_.test);
     for (const Contest& contest : contests) {
       const auto first = adjusted.begin() + static_cast<std::ptrdiff_t>(contest.first_test);
-      const bool told = std::all_of(first, first + static_cast<std::ptrdiff_t>(contest.tests),
-                                    [](double p) { return p <= significance; });
-      if (told) best_.insert({contest.best, contest.quantity, contest.step});
+      const bool known = std::all_of(first, first + static_cast<std::ptrdiff_t>(contest.tests),
+                                     [](double p) { return p <= significance; });
+      if (known) best_.insert({contest.best, contest.quantity, contest.step});
     }
   }
 

@@ -118,7 +118,7 @@ void Manifest::take_history(const fs::path& other) {
   const Json theirs = read_manifest(other);
   if (!theirs.is_object() || !theirs.contains("sweeps")) {
     throw InputError(other.string() +
-                     " holds no manifest.json that says who ran its trials; name a folder that "
+                     " holds no manifest.json that says what ran its trials; name a folder that "
                      "shoal sweep wrote");
   }
   unite(content_->sweeps, theirs["sweeps"]);

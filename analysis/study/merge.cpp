@@ -39,7 +39,7 @@ std::vector<fs::path> distinct(const fs::path& folder, const std::vector<fs::pat
   return found;
 }
 
-/// Takes away what a merge made in a folder that held no study, unless it is told to keep it.
+/// Takes away what a merge made in a folder that held no study, unless it is to be kept.
 class Undo {
  public:
   explicit Undo(const fs::path& folder) : folder_(folder), made_(!fs::exists(folder)) {

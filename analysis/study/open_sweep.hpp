@@ -19,7 +19,7 @@ struct SweepTask {
 };
 
 /// The folder of a study while a sweep works on it: which trials it lacks, and where their outcomes
-/// go, whoever runs them. Not for several threads at a time.
+/// go, wherever they run. Not for several threads at a time.
 class OpenSweep {
  public:
   /// Locks the folder and writes what stands in it besides trials. Throws as sweep() says. The plan

@@ -12,7 +12,7 @@
 namespace shoal::analysis {
 namespace {
 
-// What else is told of trials, in stores, tables and exported files.
+// What else is said of trials, in stores, tables and exported files.
 constexpr std::array<std::string_view, 14> reserved{
     "study_group", "replication", "seed",   "status", "reason",      "trial_id", "scenario_id",
     "program",     "wall_s",      "metric", "time_s", sample_column, "time",     "cell"};

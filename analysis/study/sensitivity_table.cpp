@@ -92,7 +92,7 @@ Cell cell_of(const IndexEstimate& estimate) {
 }
 
 Cell text_if_zero(const IndexEstimate& estimate) {
-  return std::string(estimate.distinguishable() ? "" : "not told from 0");
+  return std::string(estimate.distinguishable() ? "" : "not distinguishable from 0");
 }
 
 /// One row a factor, below those of the metrics before.

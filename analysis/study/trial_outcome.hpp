@@ -37,8 +37,8 @@ TrialOutcome trial_outcome_of_worker(const std::string& program,
 std::string trial_request(const scenarios::Scenario& scenario,
                           const std::vector<std::string>& series);
 
-/// Runs what is asked. Throws InputError if whoever asks runs another version of shoal: the numbers
-/// could differ.
+/// Runs what is asked. Throws InputError if the request comes from another version of shoal: the
+/// numbers could differ.
 std::string trial_answer(const std::string& request);
 
 /// Throws SystemError if it is none.

@@ -8,7 +8,7 @@
 namespace shoal::formations {
 
 // The potentials of Barisic et al. 2011 as functions of a distance (m): in m2/s2, their slopes in
-// m/s2, a force per unit of mass. "C" numbers are those of the corrected specification.
+// m/s2, a force per unit of mass. What C and a number mean: notebooks/corrections.md.
 
 /// An obstacle, eq. 6: p_o = k_o (exp(A+/d) - 1), with k_o made explicit (C4).
 ///
@@ -26,7 +26,8 @@ struct ObstacleContour {
   static void declare(Options<ObstacleContour>& o);
 };
 
-/// A waypoint, eq. 8-10: quadratic within d_0 = A_0/A_p (C6), linear beyond; C1 only.
+/// A waypoint, eq. 8-10: quadratic within d_0 = A_0/A_p (C6), linear beyond; continuously
+/// differentiable.
 struct WaypointContour {
   double pull_m_s2 = 0.05;  ///< A_0
   double near_m = 60.0;     ///< d_0
@@ -37,7 +38,7 @@ struct WaypointContour {
 };
 
 /// A vertex of a formation cell, eq. 11-16, with the exponent of C7, by which A_c is the greatest
-/// slope, at d_c.
+/// slope, at d_c, and with the depth of C8.
 struct VertexContour {
   double pull_m_s2 = 0.05;  ///< A_c
   double width_m = 10.0;    ///< d_c

@@ -24,7 +24,8 @@ struct Rotor {
     int sense = 0;  ///< 1: counter-clockwise, -1: clockwise, 0: no rotor
   };
 
-  /// `normal`: outward unit vector at the vehicle; places in m, velocity in m/s, all in one frame.
+  /// `normal`: outward unit vector at the vehicle (C2); places in m, velocity in m/s, all in one
+  /// frame.
   Turn turn(const Eigen::Vector2d& normal, const Eigen::Vector2d& obstacle_centre,
             const Eigen::Vector2d& waypoint, const Eigen::Vector2d& velocity) const;
 

@@ -37,8 +37,8 @@ struct FormationCell {
   static void declare(Options<FormationCell>& o);
 };
 
-/// The gains of the virtual potential. Their defaults are those of the corrected specification,
-/// sec. 9; the chapter prints none.
+/// The gains of the virtual potential. The chapter prints none; the defaults are ours,
+/// tried in the scenarios potentials_*.
 struct VirtualPotentialGains {
   WaypointContour waypoint;
   ObstacleContour obstacle;
@@ -65,8 +65,9 @@ class VirtualPotential {
   /// The rotors of all obstacles, m/s2; other agents, waypoint and vertices have none.
   Eigen::Vector2d rotor(const Eigen::Vector2d& place, const Eigen::Vector2d& velocity) const;
 
-  /// The total control force per unit of mass, m/s2: the potential's, eq. 21, the rotors', and the
-  /// damping -c_v v of C12, without which no lag makes a vehicle come to rest.
+  /// The total control force per unit of mass, m/s2: the potential's, eq. 21 with the signs and
+  /// directions of C9 to C11, the rotors', and the damping -c_v v of C12, without which no lag
+  /// makes a vehicle come to rest.
   Eigen::Vector2d force(const Eigen::Vector2d& place, const Eigen::Vector2d& velocity,
                         std::span<const Agent> others) const;
 

@@ -170,7 +170,8 @@ class Parser {
     return static_cast<int>(tree_.nodes.size()) - 1;
   }
 
-  // What has only numbers under it becomes a number, so that nobody later has to be exact about it.
+  // What has only numbers under it becomes a number, so that no later pass has to be exact about
+  // it.
   int node(Operation operation, int a, int b, std::size_t where) {
     const auto& nodes = tree_.nodes;
     const auto is_number = [&](int i) {

@@ -51,7 +51,8 @@ Foot foot_of(double X, double Y, double a, double b, double rounding) {
 }  // namespace
 
 // Barisic et al. 2011, eq. 50-62, with the distance of C44 (the printed one is in m^3) and the
-// normal of the ellipse (C45; printed is the radial direction).
+// normal of the ellipse (C45; printed is the radial direction). Inside (C46) the distance is
+// negative.
 Proximity Ellipse::nearest_in_quadrant(const Eigen::Vector2d& place, double rounding) const {
   const bool lies = half_.x() >= half_.y();
   const double a = half_.maxCoeff();

@@ -7,7 +7,7 @@
 namespace shoal::formations {
 namespace {
 
-/// A potential of one's own, written as text: in a scenario, a study or `--set`.
+/// A potential of your own, written as text: in a scenario, a study or `--set`.
 struct Expression {
   std::string formula = "s^3/(2*r^2) + r - 3*s";  // Rypkema 2015, eq. 3.3
   double from_m = 0.1;
@@ -64,7 +64,7 @@ class ExpressionPotential final : public Potential {
 };
 
 const Register<Potential, Expression> registered{
-    "expression", "a formula of one's own in r and s",
+    "expression", "a formula of your own in r and s",
     [](const Expression& written) { return std::make_unique<ExpressionPotential>(written); }};
 
 }  // namespace

@@ -5,7 +5,7 @@
 namespace shoal::formations {
 namespace {
 
-/// Everybody: Rypkema 2015, eq. 3.5. Minima then lie nearer than the separation in the midst of a
+/// All of them: Rypkema 2015, eq. 3.5. Minima then lie nearer than the separation in the midst of a
 /// swarm and farther at its edge, which is why the thesis chooses two.
 struct InRange final : Selection {
   void select(std::span<const Neighbour> in_range, std::vector<int>& chosen) const override {

@@ -36,7 +36,7 @@ struct PingUnderway {
   double emitted_s;
   std::uint32_t sender;
   std::uint32_t emission;  ///< how many pings the sender had sent before
-  /// What it says of the sender, or nothing; whoever sends it keeps it until it has arrived.
+  /// What it says of the sender, or nothing; the sender keeps it until it has arrived.
   const formations::OwnState* state = nullptr;
 };
 

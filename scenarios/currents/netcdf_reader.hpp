@@ -21,7 +21,7 @@ class VelocityReader {
 
   /// Components as in the file, m/s, nodes in the order of the file; both NaN where u, v or the
   /// mask says that there is no water. Refuses infinite values and speeds that no current has:
-  /// these are fill values that nobody declared.
+  /// these are fill values that were not declared.
   void read(std::size_t time, std::size_t level, std::vector<VelocityField::Node>& nodes);
 
  private:

@@ -130,7 +130,7 @@ std::shared_ptr<const Waters> read(const NetcdfFile& file, const WatersRequest& 
   return std::make_shared<const Waters>(std::move(waters));
 }
 
-/// What was read, by whom it was asked for, and from which state of the file.
+/// What was read, for which option, and from which state of the file.
 struct Known {
   WatersRequest request;
   fs::file_time_type changed;

@@ -42,8 +42,8 @@ struct Waters {
   [[noreturn]] void refuse(const std::string& why) const;
 };
 
-/// Reads a file, or shares what was read from it before, as long as somebody holds that and the
-/// file has the same size and time of change. Thread-safe: who asks for what another thread is
+/// Reads a file, or shares what was read from it before, as long as that is held and the
+/// file has the same size and time of change. Thread-safe: a request for what another thread is
 /// reading waits for it. Throws InputError.
 std::shared_ptr<const Waters> waters_of(const WatersRequest& request);
 

@@ -7,13 +7,13 @@
 
 namespace shoal::scenarios {
 
-/// As what a filter, which takes noise to be white, is told of noise that is not.
+/// The variance for a filter, which takes noise to be white, of noise that is not.
 ///
 /// Rate limits make the noise of a channel smaller than its sigma and correlated in time, so R_n
 /// and R_v are measured on the simulated noise itself (131072 samples of fixed streams: they depend
 /// on the noise and the period, not on the seed of a trial; what was simulated once is kept).
 ///
-/// A filter that is told the variance of a sample believes the mean of many samples, although they
+/// A filter that is given the variance of a sample believes the mean of many samples, although they
 /// all err the same way: on noise as printed its NEES is about 80 instead of 12. With the long mean
 /// it is about 7, and the errors are no larger. The price: a single sample has to be several times
 /// further off before it counts as an outlier.

@@ -29,7 +29,7 @@ struct OutlierGate {
   int patience = 10;
 };
 
-/// What a filter of N states and M measurements is told. Angles (radians) are marked: their
+/// The models of a filter of N states and M measurements. Angles (radians) are marked: their
 /// differences are wrapped, their means are taken on the circle.
 template <int N, int M>
 struct UkfSettings {

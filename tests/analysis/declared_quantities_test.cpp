@@ -95,8 +95,8 @@ TEST(KnownQuantities, RefuseAnUnknownNameWithTheLikelyOne) {
   EXPECT_EQ(known_value("energy_rate_w").unit, "W");
 }
 
-/// A measure that declares one value and one series, and adds what it is told.
-class Told final : public Measure {
+/// A measure that declares one value and one series, and adds what it is given.
+class Given final : public Measure {
  public:
   std::vector<std::pair<std::string, std::optional<double>>> values_to_add;
   std::vector<scenarios::Series> series_to_add;
@@ -113,15 +113,15 @@ class Told final : public Measure {
 
 class Conclude : public testing::Test {
  protected:
-  void conclude() { analysis::conclude(told_, *trial_.world, results_); }
+  void conclude() { analysis::conclude(given_, *trial_.world, results_); }
 
   const Trial trial_ = brief_trial();
   Results results_;
-  Told told_;
+  Given given_;
 
   void SetUp() override {
-    told_.values_to_add = {{"a_m", 1.0}};
-    told_.series_to_add = {{"b_s", "", "", {0.0, 30.0}, {1.0, 2.0}}};
+    given_.values_to_add = {{"a_m", 1.0}};
+    given_.series_to_add = {{"b_s", "", "", {0.0, 30.0}, {1.0, 2.0}}};
   }
 };
 
@@ -134,42 +134,42 @@ TEST_F(Conclude, AddsUnitAndMeaningOfASeries) {
 }
 
 TEST_F(Conclude, RefusesWhatWasNotDeclared) {
-  told_.values_to_add = {{"c_m", 1.0}};
+  given_.values_to_add = {{"c_m", 1.0}};
   EXPECT_THROW(conclude(), std::logic_error);
-  told_.values_to_add = {{"a_m", 1.0}, {"c_m", 1.0}};
+  given_.values_to_add = {{"a_m", 1.0}, {"c_m", 1.0}};
   EXPECT_THROW(conclude(), std::logic_error);
 }
 
 TEST_F(Conclude, RefusesASeriesThatWasNotDeclared) {
-  told_.series_to_add[0].name = "a_m";
+  given_.series_to_add[0].name = "a_m";
   EXPECT_THROW(conclude(), std::logic_error);
 }
 
 TEST_F(Conclude, AsksForAllThatWasDeclared) {
-  told_.values_to_add.clear();
+  given_.values_to_add.clear();
   EXPECT_THROW(conclude(), std::logic_error);
 }
 
 TEST_F(Conclude, AsksForEverySeriesThatWasDeclared) {
-  told_.series_to_add.clear();
+  given_.series_to_add.clear();
   EXPECT_THROW(conclude(), std::logic_error);
 }
 
 TEST_F(Conclude, TakesAValueThatIsNotDefined) {
-  told_.values_to_add = {{"a_m", std::nullopt}};
+  given_.values_to_add = {{"a_m", std::nullopt}};
   conclude();
   EXPECT_EQ(results_.at("a_m"), std::nullopt);
 }
 
 TEST_F(Conclude, RefusesWhatIsNotFinite) {
-  told_.values_to_add = {{"a_m", std::numeric_limits<double>::quiet_NaN()}};
+  given_.values_to_add = {{"a_m", std::numeric_limits<double>::quiet_NaN()}};
   EXPECT_THROW(conclude(), std::logic_error);
 }
 
 TEST_F(Conclude, RefusesASeriesWithoutANumberAtEveryInstant) {
-  told_.series_to_add[0].values = {1.0};
+  given_.series_to_add[0].values = {1.0};
   EXPECT_THROW(conclude(), std::logic_error);
-  told_.series_to_add[0].values = {1.0, std::numeric_limits<double>::infinity()};
+  given_.series_to_add[0].values = {1.0, std::numeric_limits<double>::infinity()};
   EXPECT_THROW(conclude(), std::logic_error);
 }
 

@@ -177,7 +177,7 @@ TEST(Quality, OfTwoVehiclesIsHalfTheErrorOfTheirDistance) {
 }
 
 TEST(Quality, KnowsHowStraightVehiclesWentToTheirPlaces) {
-  // Where they are is where they should be: nobody went anywhere.
+  // Where they are is where they should be: no vehicle went anywhere.
   EXPECT_EQ(run(parked).results.at("path_straightness"), std::nullopt);
   // Two vehicles push one another apart, along the line on which they are.
   const Settings apart = {"plan.square.rows=1", "swarm.start.kind=points", "trial.duration_s=600",

@@ -44,7 +44,7 @@ class Merge(StudyDesk):
         return (self.desk / file).read_text()
 
     def content(self, out):
-        """What must not change: the trials, and what is told of them."""
+        """What must not change: the trials, and what is said of them."""
         return (self.rows("*", out), self.text(f"{out}/study.toml"),
                 self.text(f"{out}/manifest.json"))
 
@@ -198,7 +198,7 @@ class Merge(StudyDesk):
             running.kill()
 
     def big_part(self, replications):
-        """A part of a study of many replications that nobody has the time to run."""
+        """A part of a study of many replications that would take too long to run."""
         self.write("study.toml", SHORT.replace("replications = 3", f"replications = {replications}")
                    .split("[[table]]")[0])
         self.sweep("--shard", f"1/{replications}", out="big")

@@ -93,12 +93,12 @@ class Trials(Desk):
             text = json.dumps(value)
             done = self.shoal("run", "redsea_square", "--set", f"{key}={text}")
             sentence = done.stderr.removeprefix(f"shoal: --set {key}={text}: ").rstrip("\n")
-            with self.assertRaises(shoal.InputError) as told:
+            with self.assertRaises(shoal.InputError) as refused:
                 shoal.run("redsea_square", sets)
-            self.assertEqual(str(told.exception), sentence)
-        with self.assertRaises(shoal.InputError) as told:
+            self.assertEqual(str(refused.exception), sentence)
+        with self.assertRaises(shoal.InputError) as refused:
             shoal.run("nowhere")
-        self.assertIn('no file "nowhere"', str(told.exception))
+        self.assertIn('no file "nowhere"', str(refused.exception))
         with self.assertRaisesRegex(shoal.InputError, "a NoneType, which no option takes"):
             shoal.run("redsea_square", {"trial.seed": None})
         with self.assertRaises(shoal.SystemError):

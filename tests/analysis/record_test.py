@@ -48,7 +48,7 @@ class Record(Desk):
             self.assertEqual(variable.attrs["units"], unit, name)
             self.assertTrue(variable.attrs["long_name"], name)
         self.assertEqual(set(self.run_nc.variables) - {"vehicle", "time"}, set(RECORDED))
-        # A measure of one's own may add its series.
+        # A measure of your own may add its series.
         listed = self.shoal("list", "measures").stdout
         for name in set(self.series.data_vars) - set(SERIES):
             self.assertIn(f"  {name} ", listed)

@@ -1,4 +1,4 @@
-"""shoal report as its user sees it: the page holds what was recorded, and bad input is told.
+"""shoal report as its user sees it: the page holds what was recorded, and bad input is refused with its reason.
 
     python3 report_test.py SHOAL
 """

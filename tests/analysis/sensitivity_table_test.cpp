@@ -103,7 +103,7 @@ TEST_F(Sensitivity, StatesTheAnalyticIndicesOfIshigamisFunction) {
     EXPECT_EQ(std::get<std::string>(row[1]), std::string(1, static_cast<char>('a' + f)));
     expect_holds(row[2], known.first_order[f]);
     expect_holds(row[4], known.total[f]);
-    EXPECT_EQ(std::get<std::string>(row[3]), f == 2 ? "not told from 0" : "");
+    EXPECT_EQ(std::get<std::string>(row[3]), f == 2 ? "not distinguishable from 0" : "");
     EXPECT_EQ(std::get<std::string>(row[5]), "");
   }
 }

@@ -115,8 +115,8 @@ class Sweep(StudyDesk):
                                        for kind in ("csv", "md", "tex")})
         rows = list(csv.reader(tables["indices.csv"].decode().splitlines()))
         self.assertEqual({len(row) for row in rows}, {len(rows[0])})
-        told = [(row[0], row[1]) for row in rows[1:]]
-        self.assertEqual(told, [(metric, factor) for metric in
+        said = [(row[0], row[1]) for row in rows[1:]]
+        self.assertEqual(said, [(metric, factor) for metric in
                                 ("energy mean", "quality final")
                                 for factor in ("radius", "noise")])
         total = rows[0].index("total")

@@ -47,7 +47,7 @@ StudyPlan plan(const std::string& tables = a_table) {
   return StudyPlan(read_study(scenarios::parse_toml(study_text + tables, "study.toml")));
 }
 
-/// A trial with every metric that there is, and numbers that nobody simulated.
+/// A trial with every metric that there is, and numbers that were not simulated.
 StoredTrial trial(const StudyPlan& plan, std::size_t i) {
   const PlannedTrial& planned = plan.trial(i);
   const PlannedGroup& group = plan.groups()[planned.group];

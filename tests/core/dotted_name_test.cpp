@@ -61,7 +61,7 @@ struct Wood : Bit {
 
 struct Unused {
   static constexpr const char* family = "unused";
-  static constexpr const char* family_meaning = "chosen by nobody";
+  static constexpr const char* family_meaning = "chosen nowhere";
 };
 
 const Register<Tool, Twice> registered_twice{"both_hands", "the same twice"};

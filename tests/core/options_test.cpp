@@ -88,7 +88,7 @@ struct Everything {
     o.numbers("weights", &Everything::weights, "kg", at_least(0), "how heavy");
     o.tables("part", &Everything::parts, "its parts");
     o.table("extra", &Everything::extra, "may be left out");
-    o.setting("free", &Everything::free, "anything", "as somebody wrote it");
+    o.setting("free", &Everything::free, "anything", "as it was written");
   }
 
   std::optional<std::string> complaint() const {

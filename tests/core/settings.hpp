@@ -1,6 +1,6 @@
 #pragma once
 
-// Settings as somebody might have written them in line 4 of dir/s.toml, and what is said of them.
+// Settings as if written in line 4 of dir/s.toml, and what is said of them.
 
 #include <cstdint>
 #include <string>

@@ -380,7 +380,7 @@ TEST(AttractionRepulsion, RefusesAFormulaThatCannotBeReadWhereItIsWritten) {
             "\"q\"; known are r (distance, m), s (separation, m) and pi (character 5)");
 }
 
-/// A solver that cannot do anything for anybody.
+/// A solver that refuses every problem.
 struct Refuser final : solvers::Solver {
   solvers::Solution solve(const solvers::Problem&) const override { return {}; }
   std::optional<std::string> refuses(const solvers::Problem&) const override {

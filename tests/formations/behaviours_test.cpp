@@ -82,7 +82,7 @@ TEST_P(EveryBehaviour, AnswersEverySwarmWithAFiniteTargetAndTwiceWithTheSame) {
   }));
 }
 
-TEST_P(EveryBehaviour, HoldsWithAReasonWhenItHearsNobodyAndHasNowhereToGo) {
+TEST_P(EveryBehaviour, HoldsWithAReasonWhenItHearsNoVehicleAndHasNowhereToGo) {
   const Target target = made->step({{}, 3}, square_lattice(4, 3, 300.0));
   if (made->needs_waypoint()) {
     EXPECT_EQ(target.reason, Reason::placed);

@@ -1,4 +1,4 @@
-// The researcher's example of README.md, examples/spring.cpp: a cost of one's own is one file.
+// The researcher's example of README.md, examples/spring.cpp: a cost of your own is one file.
 
 #include <gtest/gtest.h>
 

@@ -191,7 +191,7 @@ TEST(PingFilter, KeepsNeighboursApartThatAreCloserThanTheGate) {
     filter.receive(ping(time_s + 0.11, 120.0, 0.0, anonymous), origin);
   }
   const auto all = filter.neighbours(61.0, origin);
-  ASSERT_EQ(all.size(), 2u);  // nobody pings twice within the rest
+  ASSERT_EQ(all.size(), 2u);  // no vehicle pings twice within the rest
   expect_at(all[0].position, 100.0, 0.0);
   expect_at(all[1].position, 120.0, 0.0);
 }

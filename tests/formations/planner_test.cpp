@@ -35,9 +35,9 @@ TEST(Planner, RefersTheTargetToWhereTheVehicleIsNow) {
 
 TEST(Planner, TellsTheBehaviourWhereTheVehicleIs) {
   struct Listener final : Behaviour {
-    mutable Vector2d told = Vector2d::Zero();
+    mutable Vector2d seen_at = Vector2d::Zero();
     Target step(const Neighbourhood& seen, const Plan&, const Solving&) const override {
-      told = seen.own.position;
+      seen_at = seen.own.position;
       return Target::hold(Reason::no_neighbour);
     }
     bool needs_ids() const override { return false; }
@@ -45,7 +45,7 @@ TEST(Planner, TellsTheBehaviourWhereTheVehicleIs) {
   const auto listener = std::make_shared<const Listener>();
   Planner planner(std::make_shared<const Plan>(cross_plan), listener, "v0");
   planner.plan(0.0, {.position = start});
-  EXPECT_EQ(listener->told, start);
+  EXPECT_EQ(listener->seen_at, start);
 }
 
 TEST(Planner, PlansFromWhereTheVehicleIsNow) {

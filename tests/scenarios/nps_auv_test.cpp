@@ -203,7 +203,7 @@ VehicleState controlled(const NpsAuvControllers& controllers, const NpsAuvTask& 
 }
 
 TEST(NpsAuvControllers, BringAboutWhatTheyAreAskedFor) {
-  // The 6-DOF test of the corrected specification, sec. 4.2.
+  // To a speed, a heading and a depth at once: all six degrees of freedom move.
   VehicleState start = VehicleState::Zero();
   start(0) = 0.5;
   const NpsAuvTask task{.speed_m_s = 1.5, .heading_rad = radians(60.0), .depth_m = 5.0};

@@ -33,7 +33,7 @@ struct Consistency {
   double nees = 0.0, nis = 0.0;  // sums over the runs, at the last step
 };
 
-/// The filter is told of `assumed` times the variance that the process noise has.
+/// The filter assumes `assumed` times the variance that the process noise has.
 Consistency consistency(double assumed) {
   UkfSettings<4, 2> settings;
   const Vector4d process_sd(0.02, 0.02, 0.05, 0.05);

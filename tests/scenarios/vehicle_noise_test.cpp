@@ -207,10 +207,10 @@ TEST(Disturbances, WithoutALimitHaveTheirCovariance) {
   }
 }
 
-TEST(Disturbances, WithLimitsHaveTheStandardDeviationOfTheSpecification) {
+TEST(Disturbances, WithLimitsHaveASmallerStandardDeviation) {
   const BodyCovariance R =
       simulated_disturbance_covariance({.scale = 1.0}, 0.5, NoiseModel::marginal);
-  EXPECT_NEAR(std::sqrt(R(0, 0)), 0.17, 0.01);  // m/s^2 in surge, sec. 7
+  EXPECT_NEAR(std::sqrt(R(0, 0)), 0.17, 0.01);  // m/s^2 in surge, as in independent trials
   const BodyCovariance tenth = simulated_disturbance_covariance({}, 0.5, NoiseModel::marginal);
   EXPECT_LT((tenth - 0.01 * R).norm(), 1e-12);
 }

@@ -141,7 +141,7 @@ TEST(World, AVehicleThatHearsNobodyDriftsAndSaysWhy) {
 }
 
 TEST(World, ForgottenNeighboursLeaveAVehicleDrifting) {
-  // All others fall silent at once: two minutes later the last one has nobody to go by.
+  // All others fall silent at once: two minutes later the last one has no vehicle to go by.
   World world(scenario_of({"plan.square={rows=1,columns=2}", "trial.duration_s=600",
                            "faults.node_loss={every_s=100,count=1}", "quality.every_s=0"}));
   std::vector<formations::Reason> reasons;

@@ -176,7 +176,7 @@ TEST_P(EverySolver, HasNoPointWhereThereIsNoFiniteCost) {
   EXPECT_TRUE(std::isnan(solution.x[0]) && std::isnan(solution.x[1]));
 }
 
-// Ceres ends the process on such a loss where it is told of it.
+// Ceres ends the process on such a loss where it meets it.
 TEST_P(EverySolver, DoesNotTakeTheEdgeOfALossForAMinimum) {
   struct Broken final : Loss {
     LossValue at(double squared) const override {

@@ -36,7 +36,7 @@ inline Vector2d linear(double t, double, double x, double y) {
   return {0.05 + 1e-4 * x - 2e-4 * y + 3e-5 * t, -0.1 + 2e-4 * x + 1e-4 * y};
 }
 
-/// A file of currents, on projected axes unless told otherwise; every part can be set.
+/// A file of currents, on projected axes by default; every part can be set.
 struct File {
   Values x{0, 100, 200}, y{0, 100, 200, 300}, time{0, 600, 1200}, depth;
   std::string x_units = "m", y_units = "m", x_name = "projection_x_coordinate",

@@ -1,4 +1,4 @@
-"""Pair potentials: those that ship, formulas, and functions of one's own."""
+"""Pair potentials: those that ship, formulas, and functions of your own."""
 
 from __future__ import annotations
 

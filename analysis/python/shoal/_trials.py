@@ -43,7 +43,7 @@ def name_of(value: Any, otherwise: str) -> str:
 
 def scenario(scenario: str | os.PathLike[str] | Mapping[str, Any],
              set: Mapping[str, Any] | None = None) -> dict[str, Any]:
-    """The whole scenario as nested dicts, also what nobody set. Change it and run it."""
+    """The whole scenario as nested dicts, also what was not set. Change it and run it."""
     return _shoal.scenario(plain(scenario), dict(set or {}))
 
 

@@ -8,8 +8,8 @@
 From the command line: `shoal sweep thesis_chapter5 --dask scheduler:8786`.
 
 A task is a few trials. What travels to a worker is their resolved scenarios as text (some 3 kB each),
-what comes back are their measures and the series that tables need. Workers write nothing; the one who
-sweeps stores each trial as it arrives, in the same store and with the same numbers as `shoal sweep`.
+what comes back are their measures and the series that tables need. Workers write nothing; the process
+that sweeps stores each trial as it arrives, in the same store and with the same numbers as `shoal sweep`.
 Workers need the same shoal, and the files that scenarios name under the same paths. A worker that dies
 loses the trials it was running, which others then run; one that joins late gets its share.
 """
@@ -77,7 +77,7 @@ def run(open_sweep: _shoal.OpenSweep, client: Client, batch: int,
         nonlocal first
         indices = range(first, min(first + batch, len(open_sweep)))
         first = indices.stop
-        # Not pure: nobody else's answer may stand for it.
+        # Not pure: the answer of another task may not stand for it.
         future = client.submit(answers, [open_sweep.request(i) for i in indices],
                                key=f"{name}-{indices.start}", pure=False)
         batches[future.key] = indices

@@ -71,7 +71,7 @@ function valueAt({time, values}, at) {
 
 function capital(text) { return text.charAt(0).toUpperCase() + text.slice(1); }
 
-/** What a chart shows, for those who do not see it. */
+/** What a chart shows, for screen readers. */
 function spoken({parts}) {
   return `: ${parts.map(({label, time, lines: [{values}]}) => {
     const last = values.length - 1;

@@ -146,7 +146,7 @@ function drawWaypoint(ctx, {trial, camera, look}) {
   ctx.setLineDash([]);
 }
 
-/** Where a vehicle was told to go: a line to its target. */
+/** The target of a vehicle: a line to its target. */
 function drawTargets(ctx, {trial, camera, time, look}) {
   ctx.strokeStyle = look.accent;
   ctx.lineWidth = 1;
@@ -171,7 +171,7 @@ function drawDriftingRadius(ctx, {trial, camera, time, look}) {
   }
 }
 
-/** How far the selected vehicle is heard, and who hears it. */
+/** How far the selected vehicle is heard, and which vehicles hear it. */
 function drawRange(ctx, scene) {
   const {trial, camera, time, selected, look} = scene;
   if (selected < 0 || trial.lost(selected, time)) return;

@@ -57,7 +57,7 @@ function wirePlayback(player) {
     const states = player.maps.map(map => map.seen(player));
     byId("hint").hidden = player.selected >= 0;
     showNumbers(byId("numbers"), states[0]);
-    // Spoken when it rests: nobody can follow a voice at every frame.
+    // Spoken when it rests: a voice at every frame cannot be followed.
     const labels = player.maps.map(({label}) => label && `${capital(label)}: `);
     const at = [player.time, player.selected, ...labels].join();
     if (!player.playing && at !== spokenAt) {

@@ -127,7 +127,7 @@ function showFailures() {
 }
 
 function showHistory() {
-  byId("program").textContent = data.program ? `shoal ${data.program}` : "nobody yet";
+  byId("program").textContent = data.program ? `shoal ${data.program}` : "no program yet";
   byId("study").textContent = data.study;
   const save = byId("save");
   save.href = URL.createObjectURL(new Blob([data.study], {type: "application/toml"}));

@@ -9,8 +9,8 @@
 namespace shoal::scenarios {
 namespace {
 
-// Table 1 as corrected (spec. 4.1). Coefficients are named as in the chapter: X_vr multiplies v r
-// in surge. Units: SI.
+// Table 1 as corrected (notebooks/corrections.md). Coefficients are named as in the chapter: X_vr
+// multiplies v r in surge. Units: SI.
 constexpr double weight = 53.4e3, buoyancy = 53.4e3, length = 5.3, density = 1000.0, mass = 5454.54;
 constexpr double I_x = 2038.0, I_y = 13587.0, I_z = 13587.0;  // C32
 constexpr double I_xy = -13.58, I_yz = -13.58, I_xz = -13.58;

@@ -16,7 +16,7 @@ struct NpsAuvInputs {
   double propeller_rad_s = 0.0;          ///< n
 };
 
-/// Doubts of the corrected specification that a user may want to decide otherwise.
+/// Doubtful corrections (notebooks/corrections.md), which a user may want to decide otherwise.
 struct NpsAuvVariant {
   bool pitch_arm_of_mss = false;  ///< pitch moment with w + xq instead of w - xq (C24)
   /// L in C_t: in feet, as its disc area seems to be (C30).

@@ -66,7 +66,7 @@ test("plays at the speed it says, pauses, and starts again from the end", async 
   page.quiet();
 });
 
-test("moves by itself when nobody holds the time", async () => {
+test("moves by itself while the time is not held", async () => {
   const page = await open(browser, report("redsea"));
   await page.click("#play");
   await page.waitForFunction(() => window.shoal.player.time > 0);

@@ -61,7 +61,7 @@ before(async () => {
 });
 after(() => browser.close());
 
-test("shows tables, claims, figures and who ran it", async () => {
+test("shows tables, claims, figures and what ran it", async () => {
   const page = await open(browser, report);
   assert.equal(await page.textContent("h1"), "two <b>behaviours</b> & a </script>");
   assert.equal(await page.textContent("caption"), "Energy & more");
