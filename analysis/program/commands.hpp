@@ -12,7 +12,8 @@ struct RunArguments {
   std::string out;
   int threads = 1;
   bool report = true;
-  std::string problems;  ///< file for the problems posed; empty: do not record them
+  std::string problems;     ///< file for the problems posed; empty: do not record them
+  std::size_t keep = 1000;  ///< of them, for each vehicle
 };
 
 struct CorpusArguments {

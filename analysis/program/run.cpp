@@ -7,6 +7,7 @@
 #include "shoal/analysis/problem_recorder.hpp"
 #include "shoal/analysis/report/run_report.hpp"
 #include "shoal/analysis/trial.hpp"
+#include "shoal/core/error.hpp"
 #include "shoal/scenarios/toml_file.hpp"
 
 namespace shoal::program {
@@ -41,6 +42,17 @@ void print_summary(const analysis::Trial& trial, const std::string& name) {
              trial.vehicle_seconds_per_wall_s());
 }
 
+void require_own_name(const std::filesystem::path& problems, const std::filesystem::path& out) {
+  const auto whole = [](const std::filesystem::path& path) {
+    return std::filesystem::weakly_canonical(std::filesystem::absolute(path));
+  };
+  for (const char* name : {"scenario.toml", "run.nc", "series.nc", "summary.json", "report.html"}) {
+    if (whole(problems) != whole(out / name)) continue;
+    throw InputError("--record-problems: " + problems.string() +
+                     " is a file of the run itself; give the problems another name");
+  }
+}
+
 }  // namespace
 
 void run(const RunArguments& arguments) {
@@ -52,9 +64,10 @@ void run(const RunArguments& arguments) {
   const scenarios::Scenario scenario = scenarios::read_scenario(root);
   const std::string name = file.stem().string();
   const std::filesystem::path out = arguments.out.empty() ? "out/" + name : arguments.out;
-  analysis::require_writable(out);
   const std::filesystem::path problems = arguments.problems;
-  analysis::ProblemRecorder recorder;
+  if (!problems.empty()) require_own_name(problems, out);
+  analysis::require_writable(out);
+  analysis::ProblemRecorder recorder(arguments.keep);
   analysis::TrialSettings settings{.threads = arguments.threads, .record = true};
   if (!problems.empty()) {
     analysis::require_writable_file(arguments.problems);
@@ -70,8 +83,9 @@ void run(const RunArguments& arguments) {
   if (!problems.empty()) {
     const analysis::Corpus corpus = recorder.corpus(scenario, name, trial.world->plan());
     analysis::write_corpus(corpus, problems);
-    fmt::print("written: {}, {} situations in which problems were posed\n", problems.string(),
-               corpus.situations.size());
+    const std::size_t kept = corpus.situations.size(), all = recorder.situations();
+    fmt::print("written: {}, {}{} situations in which problems were posed\n", problems.string(),
+               kept, kept < all ? fmt::format(" of {}", all) : "");
   }
   fmt::print("written: {}/{{scenario.toml,{}summary.json{}}}\n", out.string(),
              trial.record ? "run.nc,series.nc," : "", arguments.report ? ",report.html" : "");

@@ -2,9 +2,11 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <iterator>
 
 #include "shoal/analysis/problem_recorder.hpp"
 #include "shoal/analysis/solver_comparison.hpp"
@@ -106,6 +108,38 @@ TEST_F(Corpora, DoNotDependOnThreadsAndLeaveTheTrialAlone) {
   const Trial with = run_trial(wanted, {.record = false, .plan_observer = recorder.of_trial()});
   const Trial without = run_trial(wanted, {.record = false});
   EXPECT_EQ(with.results.values, without.results.values);
+}
+
+TEST_F(Corpora, HoldSituationsSpreadOverTimeWhereTheyAreLimited) {
+  const scenarios::Scenario wanted = scenario("rigid_registration");
+  const Corpus all = recorded(wanted);
+  for (const std::size_t most : {1u, 2u, 3u, 7u}) {
+    ProblemRecorder recorder(most);
+    const Trial trial = run_trial(wanted, {.record = false, .plan_observer = recorder.of_trial()});
+    EXPECT_EQ(recorder.situations(), all.situations.size());
+    const Corpus some = recorder.corpus(wanted, "construction_square", trial.world->plan());
+    const auto of = [](const Corpus& corpus, int slot) {
+      std::vector<Situation> found;
+      std::ranges::copy_if(corpus.situations, std::back_inserter(found),
+                           [&](const Situation& s) { return s.own_slot == slot; });
+      return found;
+    };
+    for (int slot = 0; slot < trial.world->plan().size(); ++slot) {
+      const auto whole = of(all, slot), kept = of(some, slot);
+      std::size_t stride = 1;
+      while ((whole.size() + stride - 1) / stride > most) stride *= 2;
+      ASSERT_GT(stride, 1u);
+      ASSERT_EQ(kept.size(), (whole.size() + stride - 1) / stride);
+      for (std::size_t k = 0; k < kept.size(); ++k) {
+        const Situation& same = whole[k * stride];
+        EXPECT_EQ(kept[k].own.position, same.own.position);
+        ASSERT_EQ(kept[k].neighbours.size(), same.neighbours.size());
+        for (std::size_t n = 0; n < same.neighbours.size(); ++n) {
+          EXPECT_EQ(kept[k].neighbours[n].position, same.neighbours[n].position);
+        }
+      }
+    }
+  }
 }
 
 TEST_F(Corpora, KeepApartWhatWasAppended) {

@@ -412,6 +412,11 @@ class BadSurroundings(Desk):
             self.assert_complains(self.shoal(*arguments), 1,
                                   ["cannot write into ", "choose another place for ok.toml/c.jsonl"])
         self.assert_complains(self.shoal("corpus", "."), 1, ["cannot write .: it is a folder"])
+        for name in ("summary.json", "../o/run.nc", "report.html"):
+            self.assert_complains(
+                self.shoal("run", "ok.toml", "--out", "o", "--record-problems", f"o/{name}"), 2,
+                [f"--record-problems: o/{name} is a file of the run itself; give the problems another name"])
+        self.assertFalse((self.desk / "o").exists())
 
     def test_no_folder_is_made_for_profiles_of_a_corpus_that_is_none(self):
         self.assert_complains(self.shoal("solve", "ok.toml", "--solvers", "newton", "--profiles",
