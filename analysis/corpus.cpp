@@ -53,12 +53,39 @@ Setting to_setting(const Json& json, const Origin& origin) {
   return setting;
 }
 
+/// `json` as a list of so many entries, as they are written below.
+const Json& entries(const Json& json, std::size_t count, const char* what, const Origin& origin) {
+  if (json.is_array() && json.size() == count) return json;
+  throw InputError(origin, std::string(what) + " is a list of " + std::to_string(count) +
+                               " entries; here it is " +
+                               (json.is_array() ? "one of " + std::to_string(json.size())
+                                                : std::string(json.type_name())));
+}
+
+double number(const Json& json, const char* what, const Origin& origin) {
+  if (json.is_number() && std::isfinite(json.get<double>())) return json.get<double>();
+  throw InputError(origin, std::string(what) + " has " + json.dump() + " where a number stands");
+}
+
+int whole(const Json& json, const char* what, const Origin& origin) {
+  const double value = number(json, what, origin);
+  if (json.is_number_integer() && std::abs(value) < 1e9) return static_cast<int>(value);
+  throw InputError(origin, std::string(what) + " is " + json.dump() + "; it is a whole number");
+}
+
+Eigen::Vector2d place(const Json& json, const char* what, const Origin& origin) {
+  const Json& both = entries(json, 2, what, origin);
+  return {number(both[0], what, origin), number(both[1], what, origin)};
+}
+
 Experiment to_experiment(const Json& json, const Origin& origin) {
   std::vector<std::string> names;
   std::vector<Eigen::Vector2d> slots;
   for (const Json& slot : json.at("plan")) {
-    names.push_back(slot.at(0).get<std::string>());
-    slots.emplace_back(slot.at(1).get<double>(), slot.at(2).get<double>());
+    const Json& parts = entries(slot, 3, "a slot of the plan", origin);
+    names.push_back(parts[0].get<std::string>());
+    slots.emplace_back(number(parts[1], "a slot of the plan", origin),
+                       number(parts[2], "a slot of the plan", origin));
   }
   std::vector<scenarios::ObstacleOptions> obstacles;
   for (const Json& obstacle : json.at("obstacles")) {
@@ -66,8 +93,7 @@ Experiment to_experiment(const Json& json, const Origin& origin) {
   }
   std::optional<Eigen::Vector2d> waypoint;
   if (json.contains("waypoint")) {
-    const Json& place = json["waypoint"];
-    waypoint.emplace(place.at(0).get<double>(), place.at(1).get<double>());
+    waypoint = place(json["waypoint"], "the waypoint", origin);
   }
   Experiment experiment{
       json.at("scenario").get<std::string>(), to_setting(json.at("behaviour"), origin),
@@ -80,30 +106,34 @@ Experiment to_experiment(const Json& json, const Origin& origin) {
 
 Situation to_situation(const Json& json, const Corpus& corpus, const Origin& origin) {
   Situation situation;
-  situation.experiment = json.at("experiment").get<std::size_t>();
-  if (situation.experiment >= corpus.experiments.size()) {
-    throw InputError(origin, "there is no experiment " + std::to_string(situation.experiment) +
-                                 " above this line");
+  const int experiment = whole(json.at("experiment"), "experiment", origin);
+  if (experiment < 0 || static_cast<std::size_t>(experiment) >= corpus.experiments.size()) {
+    throw InputError(origin,
+                     "there is no experiment " + std::to_string(experiment) + " above this line");
   }
+  situation.experiment = static_cast<std::size_t>(experiment);
   const int slots = corpus.experiments[situation.experiment].plan.size();
-  situation.own_slot = json.at("slot").get<int>();
+  situation.own_slot = whole(json.at("slot"), "slot", origin);
   if (situation.own_slot < 0 || situation.own_slot >= slots) {
     throw InputError(origin, "the plan has no slot " + std::to_string(situation.own_slot));
   }
-  const Json& own = json.at("own");
-  const auto of_own = [&own](std::size_t i) { return own.at(i).get<double>(); };
+  const Json& own = entries(json.at("own"), 7, "own", origin);
+  const auto of_own = [&](std::size_t i) { return number(own[i], "own", origin); };
   situation.own = {.position = {of_own(0), of_own(1)},
                    .velocity = {of_own(2), of_own(3)},
                    .heading_rad = of_own(4),
                    .speed_m_s = of_own(5),
                    .turn_rate_rad_s = of_own(6)};
   for (const Json& heard : json.at("heard")) {
+    constexpr const char* what = "an entry of heard";
+    const Json& parts = entries(heard, 7, what, origin);
+    const auto part = [&](std::size_t i) { return number(parts[i], what, origin); };
     formations::Neighbour neighbour;
-    neighbour.position = {heard.at(0).get<double>(), heard.at(1).get<double>()};
-    neighbour.age_s = heard.at(2).get<double>();
-    neighbour.slot = heard.at(3).get<int>();
-    neighbour.velocity = {heard.at(4).get<double>(), heard.at(5).get<double>()};
-    neighbour.heading_rad = heard.at(6).get<double>();
+    neighbour.position = {part(0), part(1)};
+    neighbour.age_s = part(2);
+    neighbour.slot = whole(parts[3], "the slot of an entry of heard", origin);
+    neighbour.velocity = {part(4), part(5)};
+    neighbour.heading_rad = part(6);
     if (neighbour.slot < formations::anonymous || neighbour.slot >= slots) {
       throw InputError(origin, "the plan has no slot " + std::to_string(neighbour.slot));
     }

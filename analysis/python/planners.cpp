@@ -71,6 +71,7 @@ class Planner {
   }
 
   Eigen::Vector2d target(const Eigen::Vector2d& position) const {
+    if (!position.allFinite()) throw InputError("the position is not finite; give metres");
     return planner_.target_from(position);
   }
 
@@ -106,6 +107,7 @@ class Planner {
     return scenarios::make_obstacles(options);
   }
 
+  // Copies share what never changes.
   std::shared_ptr<const Plan> plan_;
   std::shared_ptr<const Behaviour> behaviour_;
   std::shared_ptr<const formations::Guidance> guidance_;
@@ -237,7 +239,8 @@ void add_planners(py::module_& module) {
       "(conditioned_force for forces, which then asks for an OwnState).\n"
       "Positions: metres east and north in any fixed frame (dead reckoning will do), which is "
       "that\n"
-      "of obstacles and waypoint, too. Raises InputError.")
+      "of obstacles and waypoint, too. copy.copy(planner) goes on with the same numbers.\n"
+      "Raises InputError.")
       .def(py::init<const Plan&, const std::string&, const std::string&, const py::dict&,
                     const py::dict&, const py::list&, const std::optional<Eigen::Vector2d>&,
                     const std::optional<std::string>&, const py::dict&>(),
@@ -245,6 +248,10 @@ void add_planners(py::module_& module) {
            py::arg("options") = py::dict(), py::arg("ping_filter") = py::dict(),
            py::arg("obstacles") = py::list(), py::arg("waypoint") = std::nullopt,
            py::arg("guidance") = std::nullopt, py::arg("guidance_options") = py::dict())
+      .def("__copy__", [](const Planner& planner) { return Planner(planner); })
+      .def(
+          "__deepcopy__", [](const Planner& planner, const py::dict&) { return Planner(planner); },
+          py::arg("memo"))
       .def(
           "receive", &Planner::receive, py::arg("ping"), py::arg("position"),
           "A ping was heard while the vehicle was at `position`. In time order. Raises InputError.")
@@ -257,7 +264,8 @@ void add_planners(py::module_& module) {
           },
           py::arg("time_s"), py::arg("position"))
       .def("target", &Planner::target, py::arg("position"),
-           "The last target relative to where the vehicle is now, metres. Zero before any plan().")
+           "The last target relative to where the vehicle is now, metres. Zero before any plan().\n"
+           "Raises InputError.")
       .def("command", &Planner::command, py::arg("own"),
            "Heading and speed on the way to the last target, or to drift. To be called every\n"
            "command_period_s. own: an OwnState, or a position where the guidance asks for no more.")

@@ -180,6 +180,23 @@ TEST_F(Corpora, AreRefusedWithTheLineThatIsWrong) {
       complaint(written(
           good + R"({"experiment":0,"slot":0,"own":[0,0,0,0,0,0,0],"heard":[[1,2,3,-2,0,0,0]]})")),
       name + ":2: the plan has no slot -2");
+  const auto own = [&](const std::string& numbers) {
+    return complaint(
+        written(good + R"({"experiment":0,"slot":0,"own":)" + numbers + R"(,"heard":[]})"));
+  };
+  EXPECT_EQ(own("[0,0,0,0,0,0,0,0]"), name + ":2: own is a list of 7 entries; here it is one of 8");
+  EXPECT_EQ(own("{}"), name + ":2: own is a list of 7 entries; here it is object");
+  EXPECT_EQ(own("[0,0,0,null,0,0,0]"), name + ":2: own has null where a number stands");
+  EXPECT_EQ(
+      complaint(written(good + R"({"experiment":0,"slot":0.5,"own":[0,0,0,0,0,0,0],"heard":[]})")),
+      name + ":2: slot is 0.5; it is a whole number");
+  EXPECT_EQ(
+      complaint(written(good + R"({"experiment":0.5,"slot":0,"own":[0,0,0,0,0,0,0],"heard":[]})")),
+      name + ":2: experiment is 0.5; it is a whole number");
+  EXPECT_EQ(
+      complaint(written(
+          good + R"({"experiment":0,"slot":0,"own":[0,0,0,0,0,0,0],"heard":[[1,2,3,1.5,0,0,0]]})")),
+      name + ":2: the slot of an entry of heard is 1.5; it is a whole number");
   EXPECT_EQ(complaint(folder / "nowhere"), "cannot open " + (folder / "nowhere").string());
 }
 

@@ -4,6 +4,7 @@
 """
 
 import concurrent.futures
+import copy
 import json
 import math
 import pathlib
@@ -398,6 +399,21 @@ class Planning(Desk):
         self.assertFalse(planner.command(position + [east + 20, north]).thrust)  # latched
         self.assertTrue(planner.command(position + [east + 26, north]).thrust)
 
+    def test_a_copy_goes_on_with_the_same_bits_and_by_itself(self):
+        position = numpy.array([970, 610])
+        planner = shoal.Planner(self.plan, "assignment_registration", "anna")
+        planner.receive(self.ping(1, (1000, 600), position), position)
+        planner.plan(1.0, position)
+        for duplicate in (copy.copy, copy.deepcopy):
+            other = duplicate(planner)
+            for one in (planner, other):
+                one.receive(self.ping(2, (900, 500), position), position)
+            self.assertEqual(planner.plan(2.0, position).tolist(), other.plan(2.0, position).tolist())
+            before = planner.target(position).tolist()
+            other.plan(200.0, position + [9, 9])  # all that it heard is too old by then
+            self.assertEqual(planner.target(position).tolist(), before)
+            self.assertNotEqual(other.reason, planner.reason)
+
     def test_a_guidance_that_does_not_fit_is_refused(self):
         with self.assertRaisesRegex(shoal.InputError, "gives places, and the guidance takes forces"):
             shoal.Planner(self.plan, "rigid_registration", "anna", guidance="conditioned_force")
@@ -412,6 +428,13 @@ class Planning(Desk):
         planner = shoal.Planner(self.plan, "rigid_registration", "anna")
         with self.assertRaises(shoal.InputError):
             planner.receive(self.ping(9, (1, 1)), [0, 0])
+        for position in ([math.nan, 0], [0, math.inf]):
+            with self.assertRaisesRegex(shoal.InputError, "finite"):
+                planner.target(position)
+            with self.assertRaisesRegex(shoal.InputError, "finite"):
+                planner.command(position)
+            with self.assertRaisesRegex(shoal.InputError, "finite"):
+                planner.plan(1.0, position)
         with self.assertRaisesRegex(shoal.InputError, "two columns"):
             shoal.Plan([1, 2, 3])
 

@@ -3,7 +3,9 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <functional>
+#include <limits>
 
 #include "shoal/scenarios/toml_file.hpp"
 #include "tests/scenarios/scenario_of.hpp"
@@ -190,15 +192,26 @@ TEST(World, StaggeredPingsAreSpreadOverThePeriod) {
   EXPECT_EQ(sent[29], 9);
 }
 
+// From a box of 200 m, in which neighbours lie some 40 m from one another, to a lattice of 300 m.
 TEST(World, WithoutIdsTheIdFreeBehavioursStillForm) {
   for (const std::string behaviour : {"attraction_repulsion", "assignment_registration"}) {
-    const Scenario s = scenario_of({"plan.square={rows=3,columns=3}", "trial.duration_s=1800",
-                                    "behaviour.kind=" + behaviour, "ping.identified=false",
-                                    "swarm.start.kind=plan", "quality.every_s=0"});
+    const Scenario s =
+        scenario_of({"plan.square={rows=3,columns=3}", "trial.duration_s=5400",
+                     "behaviour.kind=" + behaviour, "ping.identified=false",
+                     "swarm.start.box.side_m=200", "quality.every_s=0", "current.kind=none"});
     World world(s);
     world.run({});
     for (std::size_t i = 0; i < world.size(); ++i) {
       EXPECT_EQ(world.planner(i).last_target().reason, formations::Reason::placed) << behaviour;
+      double nearest_m = std::numeric_limits<double>::infinity();
+      for (std::size_t j = 0; j < world.size(); ++j) {
+        const double away_m = std::hypot(world.swarm().x_m[i] - world.swarm().x_m[j],
+                                         world.swarm().y_m[i] - world.swarm().y_m[j]);
+        if (i != j) nearest_m = std::min(nearest_m, away_m);
+      }
+      // Vehicles drift within 20 m of targets that are as uncertain as bearings, 5 degrees of 300
+      // m.
+      EXPECT_NEAR(nearest_m, 300.0, 90.0) << behaviour << ' ' << i;
     }
   }
 }
