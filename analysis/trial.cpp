@@ -19,7 +19,8 @@ std::vector<std::unique_ptr<Measure>> all_measures() {
   return measures;
 }
 
-/// Refuses what would not fit into any memory, before it has run for hours.
+}  // namespace
+
 void require_holdable(const scenarios::World& world, bool record) {
   constexpr double most = 1e9;
   const scenarios::Scenario& scenario = world.scenario();
@@ -39,8 +40,6 @@ void require_holdable(const scenarios::World& world, bool record) {
   }
   require(scenario.quality.every_s, static_cast<double>(known_series().size()), "quality.every_s");
 }
-
-}  // namespace
 
 double watching_interval_s(const scenarios::Scenario& scenario) {
   const double tick_s = scenario.trial.tick_s;

@@ -35,6 +35,10 @@ struct TrialSettings {
 /// of the mission, which take less also in a swarm of 100,000.
 double watching_interval_s(const scenarios::Scenario& scenario);
 
+/// Throws InputError if a trial of this world would keep more than a billion numbers: before it has
+/// run for hours.
+void require_holdable(const scenarios::World& world, bool record);
+
 /// Runs a scenario. The measures are the same for any number of threads, with or without recording.
 /// Throws InputError if the scenario cannot be run, or would keep more than a billion numbers.
 Trial run_trial(const scenarios::Scenario& scenario, const TrialSettings& settings = {});

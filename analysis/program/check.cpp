@@ -7,6 +7,7 @@
 #include "shoal/analysis/study/cell_scenarios.hpp"
 #include "shoal/analysis/study/study_tables.hpp"
 #include "shoal/analysis/tables/table.hpp"
+#include "shoal/analysis/trial.hpp"
 #include "shoal/core/text.hpp"
 #include "shoal/formations/csv_table.hpp"
 #include "shoal/scenarios/currents/netcdf_report.hpp"
@@ -27,6 +28,7 @@ void check_scenario(const fs::path& file) {
   const scenarios::Inheritance whole = scenarios::with_inherited(scenarios::read_toml(file), files);
   const scenarios::Scenario scenario = scenarios::read_scenario(whole.settings);
   const scenarios::World world(scenario);  // opens and checks all that it names
+  analysis::require_holdable(world, true);
   fmt::print("{}: a scenario of {} vehicles, {}, plan {}, current {}, {:g} s\n", file.string(),
              world.size(), scenario.behaviour.kind(), scenario.plan.kind(), scenario.current.kind(),
              scenario.trial.duration_s);
@@ -41,7 +43,7 @@ void check_study(const fs::path& file) {
   for (std::size_t g = 0; g < plan.groups().size(); ++g) {
     for (std::size_t cell = plan.groups()[g].cells(); cell-- > 0;) {
       const scenarios::Scenario scenario = scenarios.of(g, cell).scenario;
-      if (cell == 0) const scenarios::World world(scenario);
+      if (cell == 0) analysis::require_holdable(scenarios::World(scenario), false);
     }
   }
   std::size_t cells = 0;

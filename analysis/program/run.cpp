@@ -1,6 +1,8 @@
 #include <fmt/core.h>
 
 #include <filesystem>
+#include <system_error>
+#include <vector>
 
 #include "commands.hpp"
 #include "named_files.hpp"
@@ -42,6 +44,27 @@ void print_summary(const analysis::Trial& trial, const std::string& name) {
              trial.vehicle_seconds_per_wall_s());
 }
 
+/// Takes away folders that were not there before, if nothing was written into them.
+class NewFolders {
+ public:
+  explicit NewFolders(const std::filesystem::path& folder) {
+    std::error_code unknown;  // then it is left alone
+    auto path = std::filesystem::absolute(folder);
+    for (; !std::filesystem::exists(path, unknown) && !unknown; path = path.parent_path()) {
+      new_.push_back(path);
+    }
+  }
+  NewFolders(const NewFolders&) = delete;
+  NewFolders& operator=(const NewFolders&) = delete;
+  ~NewFolders() {
+    std::error_code ignored;  // they are not empty
+    for (const auto& path : new_) std::filesystem::remove(path, ignored);
+  }
+
+ private:
+  std::vector<std::filesystem::path> new_;  // the innermost first
+};
+
 void require_own_name(const std::filesystem::path& problems, const std::filesystem::path& out) {
   const auto whole = [](const std::filesystem::path& path) {
     return std::filesystem::weakly_canonical(std::filesystem::absolute(path));
@@ -66,6 +89,7 @@ void run(const RunArguments& arguments) {
   const std::filesystem::path out = arguments.out.empty() ? "out/" + name : arguments.out;
   const std::filesystem::path problems = arguments.problems;
   if (!problems.empty()) require_own_name(problems, out);
+  const NewFolders folders(out);
   analysis::require_writable(out);
   analysis::ProblemRecorder recorder(arguments.keep);
   analysis::TrialSettings settings{.threads = arguments.threads, .record = true};

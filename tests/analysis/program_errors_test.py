@@ -418,6 +418,13 @@ class BadSurroundings(Desk):
                 [f"--record-problems: o/{name} is a file of the run itself; give the problems another name"])
         self.assertFalse((self.desk / "o").exists())
 
+    def test_more_numbers_than_fit_are_refused_by_check_too_and_no_folder_stays(self):
+        much = ["trial.duration_s 1e+09 s: that is ", " numbers to keep, and at most 1e+09 are"]
+        (self.desk / "much.toml").write_text("[trial]\nduration_s = 1e9\n[quality]\nevery_s = 0.25\n")
+        self.assert_complains(self.shoal("check", "much.toml"), 2, much)
+        self.assert_complains(self.shoal("run", "much.toml", "--out", "deep/er"), 2, much)
+        self.assertFalse((self.desk / "deep").exists())
+
     def test_no_folder_is_made_for_profiles_of_a_corpus_that_is_none(self):
         self.assert_complains(self.shoal("solve", "ok.toml", "--solvers", "newton", "--profiles",
                                          "new/p.csv"), 2, ["ok.toml:1: "])
