@@ -62,8 +62,7 @@ struct RegisterDescent {
  private:
   // Looked up when asked for: at start-up that solver may not be registered yet.
   static const MemberInfo& smooth() {
-    const auto& all = Registry<Solver>::instance();
-    return all.members()[all.index_of(name.text, {}, RegistrationSolver::family)];
+    return *Registry<Solver>::instance().find(name.text);
   }
 };
 
