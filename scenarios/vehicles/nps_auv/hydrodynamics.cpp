@@ -132,7 +132,7 @@ void NpsAuvVariant::declare(Options<NpsAuvVariant>& o) {
          "pitch moment of the cross-flow with w + xq, as in the MSS toolbox, instead of the moment "
          "of the force");
   o.number("propeller_length", &V::propeller_length, "", above(0),
-           "L of the propeller's C_t: 17.39 ft, or 5.3 (m) as in the MSS toolbox");
+           "L of the propeller's C_t: 17.388 ft (5.3 m), or 5.3 (m) as in the MSS toolbox");
 }
 
 NpsAuvPropulsion nps_auv_propulsion(double propeller_rad_s) {
