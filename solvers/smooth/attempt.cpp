@@ -226,8 +226,7 @@ bool Attempt::may_end_after(double step) {
 
 bool Attempt::at_minimum() const {
   double largest_gradient = std::sqrt(largest_gradient_squared_);
-  if (largest_gradient ==
-      0.0) {  // of a method that uses no derivatives: the gradient at the start will do
+  if (largest_gradient == 0.0) {  // of a method without derivatives: that at the start will do
     Vector gradient(problem_.dimension());
     problem_.evaluate(problem_.start.data(), gradient.data());
     if (gradient.allFinite()) largest_gradient = gradient.norm();

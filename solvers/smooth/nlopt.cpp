@@ -107,6 +107,7 @@ class Run {
   }
 
  private:
+  static constexpr bool steps_along_lines = std::is_same_v<SomeOptions, LocalOptions>;
   using Handle = std::unique_ptr<nlopt_opt_s, decltype(&nlopt_destroy)>;
 
   nlopt_result minimise(nlopt_algorithm id, Vector x, std::int64_t evaluations) {
@@ -141,7 +142,10 @@ class Run {
     Handle handle(nlopt_create(id, static_cast<unsigned>(attempt_.unknowns())), &nlopt_destroy);
     if (!handle) throw std::bad_alloc();
     nlopt_set_maxeval(handle.get(), static_cast<int>(evaluations));
-    nlopt_set_xtol_abs1(handle.get(), options_.x_tolerance_m);
+    // Methods that step along a line compare every unknown by itself with NLopt's tolerance; ours
+    // is the length of the step. The others compare the extent of what they probe.
+    const double share = steps_along_lines ? 1.0 / std::sqrt(attempt_.unknowns()) : 1.0;
+    nlopt_set_xtol_abs1(handle.get(), share * options_.x_tolerance_m);
     if constexpr (requires { options_.initial_step_m; }) {
       nlopt_set_initial_step1(handle.get(), options_.initial_step_m);
     }

@@ -8,6 +8,7 @@
 #include "shoal/core/angles.hpp"
 #include "shoal/core/text.hpp"
 #include "shoal/core/transform.hpp"
+#include "shoal/scenarios/estimators/estimator.hpp"
 #include "shoal/scenarios/toml_file.hpp"
 #include "shoal/scenarios/world.hpp"
 #include "tests/analysis/parked_trials.hpp"
