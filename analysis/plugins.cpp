@@ -75,7 +75,8 @@ void load_plugin(const fs::path& given) {
 void load_plugins_of_environment() {
   const char* given = std::getenv(variable);
   if (!given) return;
-  for (const std::string_view file : split(std::string(given), ':')) {
+  const std::string files = given;  // which loading changes
+  for (const std::string_view file : split(files, ':')) {
     if (!file.empty()) load_plugin(file);
   }
 }

@@ -3,7 +3,7 @@
 # Usage: run.sh BUILD_DIR [CXX_COMPILER]
 set -euo pipefail
 here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
-build=$1
+build=$(realpath "$1")
 compiler=${2:-c++}
 
 work=$(mktemp -d)
@@ -36,7 +36,7 @@ cmake -S "$here/plugin" -B "$work/plugin" -DCMAKE_CXX_COMPILER="$compiler" \
   -DCMAKE_BUILD_TYPE=Release -DCMAKE_PREFIX_PATH="$work/prefix"
 cmake --build "$work/plugin"
 plugin=$work/plugin/libmine.so
-prefix/bin/shoal --plugin "$plugin" list | grep -c "  my_" | grep -qx 5
+prefix/bin/shoal --plugin "$plugin" list | grep -c '^  my_' | grep -qx 5
 prefix/bin/shoal --plugin "$plugin" describe my_jet | grep -F current.my_jet.width_m
 prefix/bin/shoal --plugin "$plugin" run construction_square --out mine --no-report \
   --set trial.duration_s=60 --set current.kind=my_jet --set behaviour.kind=my_gathering \
@@ -67,8 +67,8 @@ refused 'is no plugin of shoal' prefix/bin/shoal --plugin prefix/lib/libshoal_co
 refused 'cannot read the plugin' prefix/bin/shoal --plugin nowhere.so list
 sed 's/shoal plugin, ABI /shoal plugin, ABI 9/' "$plugin" >foreign.so
 refused 'was built for shoal 9' prefix/bin/shoal --plugin ./foreign.so list
-cp "$plugin" copy.so
-refused 'are called' prefix/bin/shoal --plugin "$plugin" --plugin ./copy.so list
+cp "$plugin" twin.so
+refused 'are called' prefix/bin/shoal --plugin "$plugin" --plugin ./twin.so list
 refused 'no option "my_jet"' prefix/bin/shoal run construction_square --set current.my_jet.width_m=3
 
 # The Python package and the report, where they were installed.
