@@ -13,7 +13,7 @@
 namespace shoal::analysis {
 namespace {
 
-std::string superscript(const std::string& mark) {
+std::string raised(const std::string& mark) {
   return mark.empty() ? "" : "\\textsuperscript{" + mark + "}";
 }
 
@@ -49,7 +49,7 @@ class LatexColumn {
 
   std::string cell(const Cell& cell, const LaidCell& laid) const {
     if (const auto* text = std::get_if<std::string>(&cell)) return latex_escaped(*text);
-    if (laid.numbers.empty()) return "{--" + superscript(laid.mark) + "}";
+    if (laid.numbers.empty()) return "{--" + raised(laid.mark) + "}";
     if (laid.best) return best(laid);
     const std::string text = behind(laid);
     return latex_number(laid.numbers[0]) + (text.empty() ? "" : " {" + text + "}");
@@ -58,7 +58,7 @@ class LatexColumn {
  private:
   std::string behind(const LaidCell& laid) const {
     const std::string reached = laid.reached.empty() ? "" : "\\ " + laid.reached;
-    if (laid.numbers.size() < 2) return reached + superscript(laid.mark);
+    if (laid.numbers.size() < 2) return reached + raised(laid.mark);
     const auto part = [&](std::size_t k, const std::string& open, const std::string& close) {
       const Number& number = laid.numbers[k];
       return rooms_[k].before(number) + open + number.whole + latex_from_point(number) + close +
@@ -70,7 +70,7 @@ class LatexColumn {
         column_.kind == ColumnKind::plus_minus  ? "{}\\pm{}" + part(1, "", "")
         : column_.kind == ColumnKind::deviation ? "\\;" + part(1, "(", ")")
                                                 : "\\;" + part(1, "[", ",") + part(2, "", "]");
-    return "$" + clear + uncertainty + "$" + reached + superscript(laid.mark);
+    return "$" + clear + uncertainty + "$" + reached + raised(laid.mark);
   }
 
   /// Bold digits are wider than plain ones: they hang from the point to both sides, over a box just
@@ -195,7 +195,7 @@ std::string notes(const std::vector<Note>& notes) {
     const std::string text = latex_escaped(note.text);
     printed += "    " +
                (note.mark.empty() ? text + "\\par"
-                                  : "\\mbox{" + superscript(note.mark) + "\\," + text + "}\\quad") +
+                                  : "\\mbox{" + raised(note.mark) + "\\," + text + "}\\quad") +
                "\n";
   }
   return printed;
