@@ -16,11 +16,11 @@ using Json = nlohmann::ordered_json;
 constexpr int along_longer_side = 24;
 constexpr int most_instants = 49;
 
-struct Axis {
+struct GridAxis {
   std::vector<double> places;
 
   /// Multiples of the spacing, so that neighbouring pages agree.
-  Axis(double from, double to, double spacing) {
+  GridAxis(double from, double to, double spacing) {
     for (double k = std::floor(from / spacing); k <= std::ceil(to / spacing); ++k) {
       places.push_back(k * spacing);
     }
@@ -37,8 +37,8 @@ Json current_arrows(const scenarios::Current& current, const Region& region, dou
   const double side = std::max({region.east - region.west, region.north - region.south, 100.0});
   const double spacing = side / along_longer_side;
   const double beyond = 0.25 * side;
-  const Axis east(region.west - beyond, region.east + beyond, spacing);
-  const Axis north(region.south - beyond, region.north + beyond, spacing);
+  const GridAxis east(region.west - beyond, region.east + beyond, spacing);
+  const GridAxis north(region.south - beyond, region.north + beyond, spacing);
   Field field;
   for (const double y : north.places) {
     for (const double x : east.places) {

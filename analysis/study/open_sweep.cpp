@@ -18,9 +18,9 @@ namespace {
 namespace fs = std::filesystem;
 
 /// Compares what a study asks for with what is stored.
-class Missing {
+class TrialsToRun {
  public:
-  Missing(const StudyPlan& plan, const Store& store, const SweepSettings& settings) {
+  TrialsToRun(const StudyPlan& plan, const Store& store, const SweepSettings& settings) {
     std::unordered_map<std::string, StoredTrial> stored;
     for (StoredTrial& trial : store.trials(std::vector<std::string>{})) {
       std::string key = trial.key;
@@ -121,7 +121,7 @@ struct OpenSweep::State {
   const StudyPlan& plan;
   FolderLock lock;
   Store store;
-  Missing missing;
+  TrialsToRun missing;
   std::vector<std::string> series;
   std::optional<Manifest> manifest;  // reads study.toml
   SweepProgress progress;
