@@ -26,8 +26,8 @@ std::vector<std::pair<std::string, std::string>> libraries() {
 
 BuildInfo& known() {
   static BuildInfo info{SHOAL_VERSION, std::string(SHOAL_VERSION) + "-" + source_hash,
-                              source_commit, source_dirty,
-                              compiler(),    libraries()};
+                        source_commit, source_dirty,
+                        compiler(),    libraries()};
   return info;
 }
 

@@ -11,8 +11,8 @@ struct BuildInfo {
   std::string version;
   /// Version and hash of all sources that numbers of trials depend on, and those of plugins.
   std::string program;
-  std::string commit;   ///< of the source tree; "unknown" outside a repository
-  bool dirty = false;   ///< whether files differed from that commit when it was built
+  std::string commit;  ///< of the source tree; "unknown" outside a repository
+  bool dirty = false;  ///< whether files differed from that commit when it was built
   std::string compiler;
   std::vector<std::pair<std::string, std::string>> libraries;  ///< name, version
 };

@@ -61,9 +61,7 @@ struct RegisterDescent {
 
  private:
   // Looked up when asked for: at start-up that solver may not be registered yet.
-  static const MemberInfo& smooth() {
-    return *Registry<Solver>::instance().find(name.text);
-  }
+  static const MemberInfo& smooth() { return *Registry<Solver>::instance().find(name.text); }
 };
 
 }  // namespace shoal::solvers

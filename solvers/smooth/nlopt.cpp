@@ -142,9 +142,10 @@ class Run {
     Handle handle(nlopt_create(id, static_cast<unsigned>(attempt_.unknowns())), &nlopt_destroy);
     if (!handle) throw std::bad_alloc();
     nlopt_set_maxeval(handle.get(), static_cast<int>(evaluations));
-    // Methods that step along a line compare every unknown by itself with NLopt's tolerance; ours
-    // is the length of the step. The others compare the extent of what they probe.
-    const double share = steps_along_lines ? 1.0 / std::sqrt(attempt_.unknowns()) : 1.0;
+    // Methods that step along a line end where no unknown moves by more than NLopt's tolerance: of
+    // many unknowns, each may move by little far from the minimum. (Of two, as vehicles have, none
+    // does.)
+    const double share = steps_along_lines ? std::min(1.0, 2.0 / attempt_.unknowns()) : 1.0;
     nlopt_set_xtol_abs1(handle.get(), share * options_.x_tolerance_m);
     if constexpr (requires { options_.initial_step_m; }) {
       nlopt_set_initial_step1(handle.get(), options_.initial_step_m);

@@ -1,5 +1,5 @@
-// What a build of the planner lists, one `family name` a line, and what it says of a member that was
-// left out.
+// What a build of the planner lists, one `family name` a line, and what it says of a member that
+// was left out.
 
 #include <cstdio>
 #include <cstring>
