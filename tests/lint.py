@@ -101,6 +101,8 @@ def check_tidy(builds):
             key = key_of(command, built_from, build, checks) if built_from else None
             if key is None or not (CACHE / key).exists():
                 waiting.append((command["file"], build, key))
+    # Stands in for a source of a backend that is left out: compiled by tests/install/smallest.sh only.
+    left = {name for name in left if not name.endswith("_left_out.cpp")}
     if left:
         sys.exit(f"lint: not compiled, so not checked: {', '.join(sorted(left))}")
     print(f"clang-tidy: {read} compiled files, {read - len(waiting)} known to be clean", flush=True)
