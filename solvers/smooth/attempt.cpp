@@ -13,6 +13,10 @@ using Vector = Problem::Vector;
 /// For the derivatives of few unknowns without allocating.
 using Scratch = SmallVector<double, 36>;
 
+std::size_t at(int index) {
+  return static_cast<std::size_t>(index);
+}
+
 }  // namespace
 
 Attempt::Attempt(const Problem& problem, const Limits& limits)
@@ -97,16 +101,14 @@ bool Attempt::reduced(const Function& function, const double* y, double& value, 
     value = function(y, gradient, hessian);
   } else {
     const int n = problem_.dimension();
-    Scratch all_gradient(static_cast<std::size_t>(gradient ? n : 0)),
-        all_hessian(static_cast<std::size_t>(hessian ? n * n : 0));
+    Scratch all_gradient(at(gradient ? n : 0)), all_hessian(at(hessian ? n * n : 0));
     value = function(place(y), gradient ? all_gradient.data() : nullptr,
                      hessian ? all_hessian.data() : nullptr);
     for (int k = 0; gradient && k < free_count_; ++k) {
-      gradient[k] = all_gradient[static_cast<std::size_t>(free(k))];
+      gradient[k] = all_gradient[at(free(k))];
     }
     for (int k = 0; hessian && k < free_count_ * free_count_; ++k) {
-      hessian[k] =
-          all_hessian[static_cast<std::size_t>(free(k / free_count_) * n + free(k % free_count_))];
+      hessian[k] = all_hessian[at(free(k / free_count_) * n + free(k % free_count_))];
     }
   }
   bool finite = std::isfinite(value);
@@ -163,15 +165,14 @@ Attempt::Outcome Attempt::residuals(int block, const double* y, double* values, 
     const LeastSquares& structure = *problem_.least_squares;
     const int m = structure.residuals->block_size(), n = problem_.dimension();
     const double* x = place(y);
-    Scratch whole(static_cast<std::size_t>(jacobian ? m * n : 0));
+    Scratch whole(at(jacobian ? m * n : 0));
     structure.residuals->evaluate(block, x, values, jacobian ? whole.data() : nullptr, nullptr);
     double squared = 0.0;
     bool finite = true;
     for (int r = 0; r < m; ++r) {
       squared += values[r] * values[r];
       for (int k = 0; jacobian && k < free_count_; ++k) {
-        const double entry = jacobian[r * free_count_ + k] =
-            whole[static_cast<std::size_t>(r * n + free(k))];
+        const double entry = jacobian[r * free_count_ + k] = whole[at(r * n + free(k))];
         finite &= std::isfinite(entry);
       }
     }
