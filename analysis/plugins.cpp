@@ -4,14 +4,13 @@
 
 #include <algorithm>
 #include <cstdlib>
-#include <fstream>
-#include <iterator>
 
 #include "shoal/analysis/build_info.hpp"
 #include "shoal/analysis/study/cell_scenarios.hpp"
 #include "shoal/core/error.hpp"
 #include "shoal/core/registry.hpp"
 #include "shoal/core/text.hpp"
+#include "shoal/core/whole_file.hpp"
 
 namespace shoal::analysis {
 namespace {
@@ -25,15 +24,6 @@ const std::string mark = std::string("shoal plugin, ") + "ABI ";
 std::vector<Plugin>& loaded() {
   static std::vector<Plugin> plugins;
   return plugins;
-}
-
-std::string content_of(const fs::path& file) {
-  std::ifstream in(file, std::ios::binary);
-  std::string content(std::istreambuf_iterator<char>(in), {});
-  if (!in.is_open() || in.bad() || fs::is_directory(file)) {
-    throw InputError("cannot read the plugin " + file.string());
-  }
-  return content;
 }
 
 void require_abi(const fs::path& file, const std::string& content) {
@@ -56,8 +46,13 @@ void load_plugin(const fs::path& given) {
   const fs::path file = fs::absolute(given).lexically_normal();
   const auto same = [&](const Plugin& plugin) { return plugin.file == file; };
   if (std::ranges::any_of(loaded(), same)) return;
-  const std::string content = content_of(file);
-  require_abi(file, content);
+  if (file.string().find(':') != std::string::npos) {
+    throw InputError("the plugin " + file.string() +
+                     " has a colon in its path, which separates those of SHOAL_PLUGINS; move it");
+  }
+  const auto content = read_whole_file(file);
+  if (!content) throw InputError("cannot read the plugin " + file.string());
+  require_abi(file, *content);
   const RegistryWatch watch;
   // Global, so that one plugin may build on another.
   const bool there = ::dlopen(file.c_str(), RTLD_NOW | RTLD_GLOBAL) != nullptr;
@@ -65,7 +60,7 @@ void load_plugin(const fs::path& given) {
   if (!why.empty()) {
     throw InputError("cannot load the plugin " + file.string() + ": " + why);
   }
-  loaded().push_back({file, hash_of(content)});
+  loaded().push_back({file, hash_of(*content)});
   add_to_program(file.filename().string() + "-" + loaded().back().hash);
   std::string all;
   for (const Plugin& plugin : loaded()) all += (all.empty() ? "" : ":") + plugin.file.string();

@@ -43,6 +43,10 @@ void require_holdable(const scenarios::World& world, bool record);
 /// Throws InputError if the scenario cannot be run, or would keep more than a billion numbers.
 Trial run_trial(const scenarios::Scenario& scenario, const TrialSettings& settings = {});
 
+/// What stands in the folder of a run, its report included.
+inline constexpr const char* run_files[] = {"scenario.toml", "summary.json", "run.nc", "series.nc",
+                                            "report.html"};
+
 /// The content of summary.json.
 std::string summary_json(const Trial& trial, const std::string& name);
 

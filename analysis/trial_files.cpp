@@ -66,7 +66,7 @@ std::string summary_json(const Trial& trial, const std::string& name) {
 void write_trial(const Trial& trial, const std::string& name, const fs::path& folder) {
   require_writable(folder);
   // What stands there of an earlier trial would contradict this one, if this one is cut short.
-  for (const char* earlier : {"summary.json", "run.nc", "series.nc", "report.html"}) {
+  for (const char* earlier : run_files) {
     std::error_code ignored;
     fs::remove(folder / earlier, ignored);
   }

@@ -5,6 +5,7 @@
 #include <cerrno>
 #include <cstdio>
 #include <fstream>
+#include <ios>
 #include <iterator>
 #include <system_error>
 
@@ -60,10 +61,12 @@ void write_whole_file(const fs::path& file, std::span<const char> content) {
 
 std::optional<std::string> read_whole_file(const std::filesystem::path& file) {
   std::ifstream in(file, std::ios::binary);
-  std::string content(std::istreambuf_iterator<char>(in), {});
-  // A folder opens, but does not read.
-  if (!in.is_open() || in.bad()) return std::nullopt;
-  return content;
+  if (!in.is_open()) return std::nullopt;
+  try {
+    return std::string(std::istreambuf_iterator<char>(in), {});
+  } catch (const std::ios_base::failure&) {  // a folder opens, but does not read
+    return std::nullopt;
+  }
 }
 
 }  // namespace shoal

@@ -57,8 +57,8 @@ struct Weights {
 };
 
 /// Throws InputError if there is something against what was chosen for the option `name`, given
-/// what was chosen for an option `beside` it in the same table. One of them was written by
-/// somebody: there it points.
+/// what was chosen for an option `beside` it in the same table. It points where one of them
+/// was written.
 inline void require_nothing_against(const std::optional<std::string>& why, std::string_view name,
                                     const ChoiceSetting& chosen, const ChoiceSetting& beside) {
   if (!why) return;

@@ -15,7 +15,7 @@ cat <<EOF
 That was 20 vehicles for five hours in an ocean current.
   $top/out/redsea_square/report.html    to look at: the mission plays in any browser
   $top/out/redsea_square/summary.json   how well it went
-  $top/out/redsea_square/run.nc         where everybody was (open it with xarray)
+  $top/out/redsea_square/run.nc         where every vehicle was (open it with xarray)
 Another behaviour:
   $top/build/release/bin/shoal run redsea_square --set behaviour.kind=pairwise_referencing
 What else there is:

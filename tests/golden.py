@@ -24,7 +24,7 @@ TOP = pathlib.Path(__file__).resolve().parent.parent
 GOLDEN = TOP / "tests" / "data" / "golden.csv"
 DURATION_S = 1800
 SEEDS = (101, 102, 103)
-SAME = 1e-9  # what rounding of the stored numbers, twelve digits, leaves
+SAME = 1e-11  # what rounding of the stored numbers, twelve digits, leaves
 MEASURES = ["energy_mean_wh", "thrust_time_ratio_mean", "thrust_distance_ratio_mean",
             "quality_final_m", "centroid_path_m", "efficiency_m_per_wh"]
 

@@ -127,13 +127,15 @@ int shoal_program(int argc, char** argv) {
       ->add_option("--threads", run.threads,
                    "threads for large swarms; the numbers do not depend on it")
       ->check(CLI::Range(1, 1024));
-  run_command->add_option("--record-problems", run.problems,
-                          "file for the problems that the behaviour poses, for shoal solve");
+  CLI::Option* recorded =
+      run_command->add_option("--record-problems", run.problems,
+                              "file for the problems that the behaviour poses, for shoal solve");
   run_command
       ->add_option("--keep", run.keep,
                    "with --record-problems: for each vehicle at most so many situations, evenly "
                    "spread over time")
       ->check(CLI::Range(std::size_t{1}, std::size_t{1'000'000'000}))
+      ->needs(recorded)
       ->capture_default_str();
   run_command->add_flag("!--no-report", run.report, "write no report.html");
   run_command->callback([&] { command = [&] { shoal::program::run(run); }; });

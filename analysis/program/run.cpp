@@ -69,7 +69,7 @@ void require_own_name(const std::filesystem::path& problems, const std::filesyst
   const auto whole = [](const std::filesystem::path& path) {
     return std::filesystem::weakly_canonical(std::filesystem::absolute(path));
   };
-  for (const char* name : {"scenario.toml", "run.nc", "series.nc", "summary.json", "report.html"}) {
+  for (const char* name : analysis::run_files) {
     if (whole(problems) != whole(out / name)) continue;
     throw InputError("--record-problems: " + problems.string() +
                      " is a file of the run itself; give the problems another name");

@@ -18,8 +18,8 @@ FolderLock::FolderLock(const std::filesystem::path& folder, Purpose purpose) {
   if (file_ < 0 && reads) {
     const int why = errno;
     file_ = ::open(file.c_str(), O_RDONLY | O_CLOEXEC);
-    const bool nobody_writes = why == EROFS || why == EACCES;
-    if (file_ < 0 && errno == ENOENT && nobody_writes) return;
+    const bool not_writable = why == EROFS || why == EACCES;
+    if (file_ < 0 && errno == ENOENT && not_writable) return;
   }
   if (file_ < 0) {
     throw SystemError("cannot write into " + folder.string() + ": " + std::strerror(errno) +

@@ -170,33 +170,24 @@ TEST_F(Corpora, AreRefusedWithTheLineThatIsWrong) {
   EXPECT_EQ(complaint(written(good + "{\"experiment\":0}\n")), name + ":2: " + no_line);
   EXPECT_EQ(complaint(written(good + "nonsense\n")), name + ":2: " + no_line);
   EXPECT_EQ(complaint(written("[1, 2]\n")), name + ":1: " + no_line);
-  EXPECT_EQ(
-      complaint(written(good + R"({"experiment":1,"slot":0,"own":[0,0,0,0,0,0,0],"heard":[]})")),
-      name + ":2: there is no experiment 1 above this line");
-  EXPECT_EQ(
-      complaint(written(good + R"({"experiment":0,"slot":2,"own":[0,0,0,0,0,0,0],"heard":[]})")),
-      name + ":2: the plan has no slot 2");
-  EXPECT_EQ(
-      complaint(written(
-          good + R"({"experiment":0,"slot":0,"own":[0,0,0,0,0,0,0],"heard":[[1,2,3,-2,0,0,0]]})")),
-      name + ":2: the plan has no slot -2");
-  const auto own = [&](const std::string& numbers) {
-    return complaint(
-        written(good + R"({"experiment":0,"slot":0,"own":)" + numbers + R"(,"heard":[]})"));
+  const std::string at_rest = "[0,0,0,0,0,0,0]";
+  const auto situation = [&](const std::string& experiment, const std::string& slot,
+                             const std::string& own, const std::string& heard = "") {
+    return complaint(written(good + R"({"experiment":)" + experiment + R"(,"slot":)" + slot +
+                             R"(,"own":)" + own + R"(,"heard":[)" + heard + "]}"));
   };
-  EXPECT_EQ(own("[0,0,0,0,0,0,0,0]"), name + ":2: own is a list of 7 entries; here it is one of 8");
-  EXPECT_EQ(own("{}"), name + ":2: own is a list of 7 entries; here it is object");
-  EXPECT_EQ(own("[0,0,0,null,0,0,0]"), name + ":2: own has null where a number stands");
-  EXPECT_EQ(
-      complaint(written(good + R"({"experiment":0,"slot":0.5,"own":[0,0,0,0,0,0,0],"heard":[]})")),
-      name + ":2: slot is 0.5; it is a whole number");
-  EXPECT_EQ(
-      complaint(written(good + R"({"experiment":0.5,"slot":0,"own":[0,0,0,0,0,0,0],"heard":[]})")),
-      name + ":2: experiment is 0.5; it is a whole number");
-  EXPECT_EQ(
-      complaint(written(
-          good + R"({"experiment":0,"slot":0,"own":[0,0,0,0,0,0,0],"heard":[[1,2,3,1.5,0,0,0]]})")),
-      name + ":2: the slot of an entry of heard is 1.5; it is a whole number");
+  EXPECT_EQ(situation("1", "0", at_rest), name + ":2: there is no experiment 1 above this line");
+  EXPECT_EQ(situation("0.5", "0", at_rest), name + ":2: experiment is 0.5; it is a whole number");
+  EXPECT_EQ(situation("0", "2", at_rest), name + ":2: the plan has no slot 2");
+  EXPECT_EQ(situation("0", "0.5", at_rest), name + ":2: slot is 0.5; it is a whole number");
+  EXPECT_EQ(situation("0", "0", "[0,0,0,0,0,0,0,0]"),
+            name + ":2: own is a list of 7 entries; here it is one of 8");
+  EXPECT_EQ(situation("0", "0", "{}"), name + ":2: own is a list of 7 entries; here it is object");
+  EXPECT_EQ(situation("0", "0", "[0,0,0,null,0,0,0]"),
+            name + ":2: own has null where a number stands");
+  EXPECT_EQ(situation("0", "0", at_rest, "[1,2,3,-2,0,0,0]"), name + ":2: the plan has no slot -2");
+  EXPECT_EQ(situation("0", "0", at_rest, "[1,2,3,1.5,0,0,0]"),
+            name + ":2: the slot of an entry of heard is 1.5; it is a whole number");
   EXPECT_EQ(complaint(folder / "nowhere"), "cannot open " + (folder / "nowhere").string());
 }
 

@@ -132,7 +132,7 @@ class Distributed(StudyDesk):
         with self.assertRaisesRegex(shoal.InputError, "install the same shoal on all machines"):
             shoal.distributed.sweep(self.desk / "study.toml", client, self.desk / "out")
 
-    def test_a_scheduler_that_is_lost_is_told_and_the_sweep_goes_on_elsewhere(self):
+    def test_a_scheduler_that_is_lost_is_reported_and_the_sweep_goes_on_elsewhere(self):
         self.write("study.toml", LONG)
         cluster, client = self.cluster(1)
 
@@ -175,7 +175,7 @@ class Distributed(StudyDesk):
         with self.assertRaisesRegex(shoal.SystemError, "dies of a trial.*sweep again"):
             shoal.distributed.sweep(self.desk / "study.toml", client, self.desk / "out")
 
-    def test_what_cannot_be_reached_is_told(self):
+    def test_what_cannot_be_reached_is_reported(self):
         done = self.shoal("sweep", "study.toml", "--dask", "tcp://127.0.0.1:1", "--out", "out")
         self.assert_complains(done, 1, ["no scheduler of dask answers at tcp://127.0.0.1:1",
                                         "start dask-scheduler"])

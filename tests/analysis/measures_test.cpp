@@ -197,7 +197,7 @@ TEST(Quality, KnowsHowStraightVehiclesWentToTheirPlaces) {
             *results.at("path_straightness"));
 }
 
-TEST(Quality, IsNotMeasuredWhenNobodyAsks) {
+TEST(Quality, IsNotMeasuredUnlessAskedFor) {
   const Results results = run(parked, {"quality.every_s=0"}).results;
   EXPECT_EQ(results.at("quality_final_m"), std::nullopt);
   EXPECT_TRUE(series(results, "quality").time_s.empty());
@@ -313,7 +313,7 @@ const Settings two_on_their_way = {
     "swarm.vehicle.nps_auv.controllers.reverse=true",
     "obstacle=[{shape={kind='circle',circle={x_m=150,y_m=200,radius_m=20}}}]"};
 
-TEST(Passage, TellsWhoArrivedWhenAndHowTheFormationWasHeld) {
+TEST(Passage, TellsWhichVehicleArrivedWhenAndHowTheFormationWasHeld) {
   const Trial trial = run(two_on_their_way);
   const Results& results = trial.results;
   EXPECT_EQ(results.at("arrived_vehicles"), 2.0);
@@ -350,7 +350,7 @@ TEST(Passage, IsNotMeasuredWhereThereIsNoWay) {
   EXPECT_TRUE(series(results, "separation_m").values.empty());
 }
 
-TEST(Passage, KnowsWhoDidNotArrive) {
+TEST(Passage, KnowsWhichVehicleDidNotArrive) {
   const Results results = run(both(two_on_their_way, {"trial.duration_s=100"})).results;
   EXPECT_EQ(results.at("arrived_vehicles"), 0.0);
   EXPECT_EQ(results.at("stranded_share"), 1.0);

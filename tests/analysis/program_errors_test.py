@@ -412,6 +412,8 @@ class BadSurroundings(Desk):
             self.assert_complains(self.shoal(*arguments), 1,
                                   ["cannot write into ", "choose another place for ok.toml/c.jsonl"])
         self.assert_complains(self.shoal("corpus", "."), 1, ["cannot write .: it is a folder"])
+        self.assert_complains(self.shoal("run", "ok.toml", "--keep", "9"), 2,
+                              ["--keep requires --record-problems"])
         for name in ("summary.json", "../o/run.nc", "report.html"):
             self.assert_complains(
                 self.shoal("run", "ok.toml", "--out", "o", "--record-problems", f"o/{name}"), 2,

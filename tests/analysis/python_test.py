@@ -337,7 +337,7 @@ class Planning(Desk):
         numpy.testing.assert_allclose(planner.target(position + [5, 0]), [-35, 0], atol=1e-9)
         self.assertEqual((planner.reason, planner.force), ("placed", None))
 
-    def test_who_hears_nobody_holds(self):
+    def test_a_vehicle_that_hears_no_other_holds(self):
         planner = shoal.Planner(self.plan, "rigid_registration", "bela")
         self.assertEqual(planner.plan(1.0, [7, 7]).tolist(), [0, 0])
         self.assertEqual(planner.reason, "no_neighbour")
@@ -420,7 +420,7 @@ class Planning(Desk):
         with self.assertRaisesRegex(shoal.InputError, "leads vehicles to a waypoint"):
             shoal.Planner(self.plan, "virtual_potential", "anna")
 
-    def test_what_is_wrong_is_told(self):
+    def test_what_is_wrong_is_said(self):
         with self.assertRaisesRegex(shoal.InputError, "anna, bela and cyra"):
             shoal.Planner(self.plan, "rigid_registration", "dora")
         with self.assertRaisesRegex(shoal.InputError, "ownship_weigt.*ownship_weight"):

@@ -141,7 +141,7 @@ class Report(Desk):
         self.assertIn("There is no playback", done.stdout)
         self.assertIn("There is no playback", page_data(self.page())["notes"][0])
 
-    def test_a_current_that_has_gone_is_told(self):
+    def test_a_current_that_has_gone_is_reported(self):
         self.run_trial("redsea_square", "--set", "trial.duration_s=60")
         file = self.desk / "out" / "scenario.toml"
         file.write_text(re.sub(r'"[^"]*redsea_like.nc"', '"gone.nc"', file.read_text()))

@@ -91,7 +91,7 @@ class FullDisk(StudyDesk):
 
 
 class ReadOnly(StudyDesk):
-    """As a user who may write nowhere: root becomes the user nobody."""
+    """Without the right to write anywhere: root becomes the user nobody."""
 
     def shoal(self, *arguments, **settings):
         if os.geteuid() == 0:

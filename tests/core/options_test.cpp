@@ -172,7 +172,7 @@ TEST(Options, AreFoundByTheirDottedKeys) {
   EXPECT_EQ(wrong("steps.x"), "dir/s.toml:4: steps is an integer, so it has no \"x\"");
 }
 
-TEST(Options, KeepTheirDefaultsWhenNobodySetsThem) {
+TEST(Options, KeepTheirDefaultsUnlessTheyAreSet) {
   const Everything fresh = reading(Setting{});
   EXPECT_EQ(fresh.speed_m_s, 0.5);
   EXPECT_EQ(fresh.shape.make()->area(), 1.0);

@@ -55,6 +55,14 @@ TEST_F(WholeFile, KeepsALinkAndReplacesWhatItLeadsTo) {
   EXPECT_EQ(names(), (std::vector<std::string>{"below", "leads_nowhere", "link", "link_to_link"}));
 }
 
+TEST_F(WholeFile, IsNothingWhereThereIsNoneOrAFolder) {
+  fs::create_directory(folder_ / "below");
+  EXPECT_EQ(read_whole_file(folder_ / "below"), std::nullopt);
+  EXPECT_EQ(read_whole_file(folder_ / "none"), std::nullopt);
+  write_whole_file(folder_ / "empty", std::string());
+  EXPECT_EQ(read_whole_file(folder_ / "empty"), "");
+}
+
 TEST_F(WholeFile, WritesIntoAPipe) {
   const fs::path pipe = folder_ / "pipe";
   ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);

@@ -133,7 +133,7 @@ TEST(AssignmentRegistration, TurnsByWholeStepsAndIgnoresPlanFrameNumbersAndOrder
 
 // Degenerate swarms -----------------------------------------------------------------------------
 
-TEST(AssignmentRegistration, HoldsWhenItHearsNobody) {
+TEST(AssignmentRegistration, HoldsWhenItHearsNoVehicle) {
   const Plan plan = square_lattice(3, 3, 300.0);
   EXPECT_EQ(behaviour(assignment_kind)->step({{}, 0}, plan).reason, Reason::no_neighbour);
   const Neighbours far{{{651, 0}, 0.0, anonymous}};

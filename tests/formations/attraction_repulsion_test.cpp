@@ -158,7 +158,7 @@ TEST(AttractionRepulsion, TurnsWithTheNeighboursAndIgnoresIdsPlanAndOrder) {
 
 // Degenerate swarms -----------------------------------------------------------------------------
 
-TEST(AttractionRepulsion, HoldsWhenItHearsNobody) {
+TEST(AttractionRepulsion, HoldsWhenItHearsNoVehicle) {
   const Target target = behaviour(attraction_kind)->step({{}, 0}, unused_plan);
   EXPECT_EQ(target.reason, Reason::no_neighbour);
   EXPECT_EQ(target.position, Vector2d(0, 0));

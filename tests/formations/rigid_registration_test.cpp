@@ -83,7 +83,7 @@ TEST(RigidRegistration, FindsTheExactSlotWhenOnlyTheNeighboursCount) {
   }));
 }
 
-TEST(RigidRegistration, HoldsWhenItHearsNobodyItKnows) {
+TEST(RigidRegistration, HoldsWhenItHearsNoVehicleOfThePlan) {
   const auto rigid = behaviour(rigid_kind);
   EXPECT_EQ(rigid->step({{}, 0}, cross_plan).reason, Reason::no_neighbour);
   const Neighbours strangers = without_ids(heard(cross_plan, 0));

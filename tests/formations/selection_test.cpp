@@ -159,7 +159,7 @@ TEST(AcuteAngle, HasNoDiagonalInALatticeOfSquaresAndSixSpringsInOneOfTriangles) 
             (Indices{0, 1, 2, 3, 4, 5}));
 }
 
-TEST(AcuteAngle, IsCutByWhoStandsBetween) {
+TEST(AcuteAngle, IsCutByAVehicleInBetween) {
   const auto acute = selection("acute_angle");
   EXPECT_EQ(chosen(*acute, neighbours_at({{300, 0}, {150, 100}})),
             (Indices{1}));  // under 112 degrees

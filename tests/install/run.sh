@@ -65,6 +65,8 @@ refused() {  # what is said instead of a traceback or a crash
 }
 refused 'is no plugin of shoal' prefix/bin/shoal --plugin prefix/lib/libshoal_core.so list
 refused 'cannot read the plugin' prefix/bin/shoal --plugin nowhere.so list
+refused 'cannot read the plugin' prefix/bin/shoal --plugin . list
+refused 'has a colon in its path' prefix/bin/shoal --plugin ./a:b.so list
 sed 's/shoal plugin, ABI /shoal plugin, ABI 9/' "$plugin" >foreign.so
 refused 'was built for shoal 9' prefix/bin/shoal --plugin ./foreign.so list
 cp "$plugin" twin.so

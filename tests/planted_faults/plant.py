@@ -7,7 +7,7 @@
 Works on a copy of the sources, which it builds and tests as they are first. Then it changes one file at a
 time, builds the library that the file belongs to (all are shared: no test is linked anew), and runs the
 tests of that layer and of those above it until one fails. A test program that does not end within five
-minutes has caught the fault, too. All of it takes about an hour on two cores.
+minutes has caught the fault, too.
 
 Each answer is written to --results at once, and a run that was interrupted goes on where it stopped; after
 a change of sources or tests, delete that file. --work keeps the copy and its build for the next run.

@@ -44,7 +44,7 @@ N_dv, N_dp, N_dr = 1.2e-3, -3.4e-5, -3.4e-3
 C_D0 = 0.00385
 K_N_M = 1.832 / 52.359  # C28
 LEAST_SPEED_M_S = 0.05  # C31
-C_T1 = 0.008 * (LENGTH_M / 0.3048) ** 2 / 2.0  # the length in feet; C30 rounds it to 17.39
+C_T1 = 0.008 * (LENGTH_M / 0.3048) ** 2 / 2.0  # the length in feet; C30
 # The hull in the cross flow; C27.
 HEIGHT_M = BREADTH_M = 0.53
 C_DY, C_DZ = 0.5, 0.6

@@ -146,7 +146,7 @@ TEST(NetcdfCurrent, BoundsStoredOrUnpackedValuesByTheTypeOfValidMax) {
   EXPECT_LT((at(*open(file.write("d.nc")), 0, 90, 90) - Vector2d(1, 1)).norm(), float_rounding);
 }
 
-TEST(NetcdfCurrent, RefusesFillValuesThatNobodyDeclared) {
+TEST(NetcdfCurrent, RefusesFillValuesThatWereNotDeclared) {
   EXPECT_SAYS(refusal(with_hole(9999.0).write("undeclared.nc")), "_FillValue");
   EXPECT_SAYS(refusal(with_hole(INFINITY).write("infinite.nc")), "_FillValue");
 }

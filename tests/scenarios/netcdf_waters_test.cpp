@@ -48,13 +48,13 @@ double eastwards(const Waters& waters) {
   return u;
 }
 
-TEST_F(WatersOf, IsSharedByThoseWhoAskForTheSame) {
+TEST_F(WatersOf, IsSharedByRequestsForTheSame) {
   const auto one = waters_of(request_);
   EXPECT_EQ(one, waters_of(request_));
   EXPECT_EQ(eastwards(*one), 0.25);
 }
 
-TEST_F(WatersOf, IsNotSharedByThoseWhoAskForSomethingElse) {
+TEST_F(WatersOf, IsNotSharedByOtherRequests) {
   const auto one = waters_of(request_);
   WatersRequest other = request_;
   other.origin.x_y = {10.0, 0.0};

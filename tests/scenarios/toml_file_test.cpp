@@ -91,7 +91,7 @@ TEST_F(TomlFile, KeepsEveryKindOfValueWithItsLine) {
   EXPECT_EQ(points[1].origin.line, 12);
 }
 
-TEST_F(TomlFile, KnowsTheLineOfDottedKeysAndOfTablesThatNobodyOpened) {
+TEST_F(TomlFile, KnowsTheLineOfDottedKeysAndOfTablesThatWereNotOpened) {
   const Setting root = read_toml(written("\nvehicle.kind = \"drifter\"\n[a.b]\nc = 1\n"));
   EXPECT_EQ(root.find("vehicle")->origin.line, 2);
   EXPECT_EQ(entry(root, "vehicle", "kind").origin.line, 2);

@@ -299,7 +299,7 @@ TEST(Ukf, SaysThatAnInnovationCovarianceHasNoInverse) {
   EXPECT_EQ(ukf.state(), Vector2d(1, 2));
 }
 
-TEST(Ukf, AnAngleNobodyMeasuresBecomesUnknownButNotWrong) {
+TEST(Ukf, AnAngleThatIsNotMeasuredBecomesUnknownButNotWrong) {
   UkfSettings<4, 4> settings = car_settings();
   settings.process_covariance(0, 0) = 0.05;
   Ukf<4, 4> ukf(settings, Vector4d(3.1, 1, 0, 0), car_start);

@@ -125,7 +125,7 @@ TEST(World, ANewVehicleDoesNotMoveTheOthersStarts) {
   for (std::size_t i = 0; i < 9; ++i) EXPECT_EQ(nine.swarm().x_m[i], twelve.swarm().x_m[i]);
 }
 
-TEST(World, AVehicleThatHearsNobodyDriftsAndSaysWhy) {
+TEST(World, AVehicleThatHearsNoOtherDriftsAndSaysWhy) {
   World world(
       scenario_of({"plan.square={rows=1,columns=2,separation_m=5000}", "swarm.start.kind=plan",
                    "current.kind=uniform", "current.uniform={u_m_s=0.1,v_m_s=0.0}",

@@ -211,7 +211,7 @@ TEST(Assignment, RefusesNanMinusInfinityAndWrongShapes) {
   EXPECT_EQ(solver.solve(std::vector(6, 1.0), 2, 3), AssignmentStatus::optimal);
 }
 
-TEST(Assignment, OfNobodyCostsNothing) {
+TEST(Assignment, OfNoPointsCostsNothing) {
   AssignmentSolver solver;
   EXPECT_EQ(solver.solve({}, 0, 0), AssignmentStatus::optimal);
   EXPECT_EQ(solver.cost(), 0.0);

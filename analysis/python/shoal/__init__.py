@@ -12,6 +12,7 @@ are radians, of the compass where they are degrees in files.
 Bad input raises InputError with the sentence that the program prints.
 """
 
+from . import _shoal
 from ._shoal import (Command, InputError, OwnState, Ping, PingFilter, Plan, Planner, Problem, Solution, SystemError, Table,
                      formation_quality, match, posed, program, register, solve)
 from ._shoal import version as __version__
@@ -19,8 +20,6 @@ from ._catalogue import catalogue, measures, options
 from ._potentials import Potential, potential
 from ._studies import claims, study_dataset, study_report, sweep, tables, trials, write_tables
 from ._trials import Run, current, run, scenario
-
-from . import _shoal
 
 
 def load_plugin(file):
@@ -35,6 +34,6 @@ def load_plugin(file):
 
 __all__ = ["Command", "InputError", "OwnState", "Ping", "PingFilter", "Plan", "Planner", "Potential", "Problem", "Run",
            "Solution", "SystemError", "Table", "__version__", "catalogue", "claims", "current",
-           "formation_quality", "load_plugin", "match", "measures", "options", "posed", "potential", "program",
-           "register", "run", "scenario", "solve", "study_dataset", "study_report", "sweep", "tables",
-           "trials", "write_tables"]
+           "formation_quality", "load_plugin", "match", "measures", "options", "posed", "potential",
+           "program", "register", "run", "scenario", "solve", "study_dataset", "study_report", "sweep",
+           "tables", "trials", "write_tables"]
