@@ -21,7 +21,7 @@ struct RegisterLeftOut {
              return none;
            },
            [](const Setting&, const std::string&) {},
-           [](const Setting& table, const std::string&) { return table; }, option},
+           [](const Setting& table, const std::string&) { return table; }, nullptr, option},
           [](const Setting&, const std::string&) -> std::unique_ptr<Family> { return nullptr; });
     }
   }

@@ -2,25 +2,44 @@
 
 #include <array>
 #include <cstdint>
+#include <string_view>
 
 namespace shoal {
 
 /// What a random number is for. Numbers of different purposes never depend on one another.
-enum class Purpose : std::uint32_t {
-  start,
-  heading,
-  range_and_bearing,
-  elevation,
-  ping_loss,
-  node_loss,
-  solver,
-  bootstrap,
-  sign_flip,
-  design,
-  sensor_state,
-  sensor_noise,
-  process_noise,
+///
+/// Those of shoal are numbered; one of your own is the hash of its name:
+///
+///     inline constexpr Purpose surfacing("my_surfacing");
+class Purpose {
+ public:
+  constexpr explicit Purpose(std::string_view name) : number_(hash(name) | own) {}
+
+  constexpr explicit Purpose(std::uint32_t number) : number_(number) {}
+
+  constexpr std::uint32_t number() const { return number_; }
+
+  static const Purpose start, heading, range_and_bearing, elevation, ping_loss, node_loss, solver,
+      bootstrap, sign_flip, design, sensor_state, sensor_noise, process_noise;
+
+ private:
+  static constexpr std::uint32_t own = 1u << 31;  // no number of shoal's has this bit
+
+  /// FNV-1a (Fowler, Noll and Vo).
+  static constexpr std::uint32_t hash(std::string_view name) {
+    std::uint32_t hash = 2166136261u;
+    for (const char letter : name) hash = (hash ^ static_cast<unsigned char>(letter)) * 16777619u;
+    return hash;
+  }
+
+  std::uint32_t number_;
 };
+
+// A number that changes is another stream: other numbers in every trial.
+inline constexpr Purpose Purpose::start{0u}, Purpose::heading{1u}, Purpose::range_and_bearing{2u},
+    Purpose::elevation{3u}, Purpose::ping_loss{4u}, Purpose::node_loss{5u}, Purpose::solver{6u},
+    Purpose::bootstrap{7u}, Purpose::sign_flip{8u}, Purpose::design{9u}, Purpose::sensor_state{10u},
+    Purpose::sensor_noise{11u}, Purpose::process_noise{12u};
 
 /// Counter-based random numbers (Philox4x32-10): the n-th number of a stream is a pure function of
 /// (seed, purpose, vehicle, index). Adding a vehicle, a thread or a shard changes no other stream,

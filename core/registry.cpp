@@ -96,6 +96,15 @@ const MemberInfo* RegistryBase::find(std::string_view name) const {
   return found == members_.end() ? nullptr : &*found;
 }
 
+const MemberInfo& RegistryBase::of_type(const std::type_info& type) const {
+  const auto is_it = [&](const MemberInfo& member) { return member.type && *member.type == type; };
+  const auto found = std::ranges::find_if(members_, is_it);
+  if (found != members_.end() && std::none_of(found + 1, members_.end(), is_it)) return *found;
+  throw std::logic_error("the family \"" + family_ + "\" has " +
+                         (found == members_.end() ? "no member" : "several members") +
+                         " with options of the type " + type.name() + "; choose by name");
+}
+
 bool RegistryBase::has_below(std::string_view name) const {
   const std::string prefix = std::string(name) + ".";
   return std::ranges::any_of(

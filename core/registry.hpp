@@ -6,6 +6,7 @@
 #include <memory>
 #include <string>
 #include <string_view>
+#include <typeinfo>
 #include <utility>
 #include <vector>
 
@@ -22,6 +23,7 @@ struct MemberInfo {
   void (*check)(const Setting& table, const std::string& path);
   /// The options as given, completed by the defaults.
   Setting (*complete)(const Setting& table, const std::string& path);
+  const std::type_info* type = nullptr;  ///< of its options, for Choice
   std::string left_out_by;  ///< option of the build (`SHOAL_NLOPT`) without which it is not there
 };
 
@@ -43,6 +45,10 @@ class RegistryBase {
   const MemberInfo* find(std::string_view name) const;
   /// Whether members are called `name.something`.
   bool has_below(std::string_view name) const;
+
+  /// The member whose options are of that type. Throws std::logic_error unless there is exactly
+  /// one.
+  const MemberInfo& of_type(const std::type_info& type) const;
 
   /// Throws InputError, naming the known members, if there is none of that name, and if it was left
   /// out of this build.
@@ -123,7 +129,9 @@ struct Register {
 
   template <class Maker>
   Register(std::string name, std::string summary, Maker maker) {
-    MemberInfo info{std::move(name), std::move(summary), &schema_of<Declared>,
+    MemberInfo info{std::move(name),
+                    std::move(summary),
+                    &schema_of<Declared>,
                     [](const Setting& table, const std::string& path) {
                       Declared declared;
                       read(declared, table, path);
@@ -132,7 +140,8 @@ struct Register {
                       Declared declared;
                       read(declared, table, path);
                       return write_options(schema_of<Declared>(), &declared);
-                    }};
+                    },
+                    &typeid(Declared)};
     RegistryWatch::add([&] {
       Registry<Family>::instance().add(
           std::move(info),
@@ -158,10 +167,26 @@ struct ChoiceSetting {
   const Setting& options() const;  ///< the table of the chosen kind
 };
 
+/// A struct with declared options.
+template <class T>
+concept DeclaredOptions = requires(Options<T>& options) {
+  T::declare(options);
+};
+
+/// A member of a family with its options: by its name, or by its type, so that the compiler knows
+/// the options:
+///
+///     Choice<Behaviour> rigid = RigidRegistration{.ownship_weight = 0.5};
 template <class Family>
 class Choice {
  public:
   Choice(std::string kind) { setting_.kind = std::move(kind); }  // NOLINT: `= "thesis"` reads well
+  Choice(const char* kind) { setting_.kind = kind; }             // NOLINT: as above
+  template <DeclaredOptions Member>
+  Choice(const Member& options) {  // NOLINT: as above
+    setting_.kind = Registry<Family>::instance().of_type(typeid(Member)).name;
+    setting_.tables.at_or_new(setting_.kind) = write_options(schema_of<Member>(), &options);
+  }
 
   const std::string& kind() const { return setting_.kind; }
   ChoiceSetting& setting() { return setting_; }
@@ -177,6 +202,12 @@ class Choice {
  private:
   ChoiceSetting setting_;
 };
+
+/// Makes a member from its options. Throws InputError if they are out of their ranges.
+template <class Family, DeclaredOptions Member>
+std::unique_ptr<Family> make(const Member& options) {
+  return Choice<Family>(options).make();
+}
 
 template <class T>
 template <class Family>

@@ -12,16 +12,21 @@
 
 #include "shoal/core/error.hpp"
 #include "shoal/core/registry.hpp"
+#include "shoal/formations/weighting.hpp"
 
 namespace shoal::formations {
 
-enum class Weighting : std::uint8_t { none, distance, ping_age };
-
-/// How much something heard counts. For the options of a behaviour to derive from.
+/// How much something heard counts.
 struct Weights {
-  double contact_rangeout_m = 650.0;  ///< what is further away is left out by the behaviour
-  Weighting weighting = Weighting::none;
-  double age_scale_s = 120.0;
+  double contact_rangeout_m;  ///< what is further away is left out by the behaviour
+  Weighting weighting;
+  double age_scale_s;
+
+  /// Of a behaviour with options of these names.
+  template <class Fitting>
+  static Weights of(const Fitting& options) {
+    return {options.contact_rangeout_m, options.weighting, options.age_scale_s};
+  }
 
   /// `place`: metres, own frame.
   bool in_range(const Eigen::Vector2d& place) const {
@@ -43,18 +48,19 @@ struct Weights {
     }
     return 1.0;
   }
-
-  template <class Declared>
-  static void declare_weighting(Options<Declared>& o, const std::string& meaning) {
-    o.word("weighting", static_cast<Weighting Declared::*>(&Declared::weighting),
-           {{"none", Weighting::none},
-            {"distance", Weighting::distance},
-            {"ping_age", Weighting::ping_age}},
-           meaning);
-    o.number("age_scale_s", &Declared::age_scale_s, "s", above(0),
-             "age at which the weight \"ping_age\" has fallen to zero");
-  }
 };
+
+/// Declares the members `weighting` and `age_scale_s` of the options of a behaviour.
+template <class Fitting>
+void declare_weighting(Options<Fitting>& o, const std::string& meaning) {
+  o.word("weighting", &Fitting::weighting,
+         {{"none", Weighting::none},
+          {"distance", Weighting::distance},
+          {"ping_age", Weighting::ping_age}},
+         meaning);
+  o.number("age_scale_s", &Fitting::age_scale_s, "s", above(0),
+           "age at which the weight \"ping_age\" has fallen to zero");
+}
 
 /// Throws InputError if there is something against what was chosen for the option `name`, given
 /// what was chosen for an option `beside` it in the same table. It points where one of them

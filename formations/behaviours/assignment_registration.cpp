@@ -1,3 +1,5 @@
+#include "shoal/formations/behaviours/assignment_registration.hpp"
+
 #include <algorithm>
 #include <memory>
 #include <vector>
@@ -9,27 +11,9 @@
 namespace shoal::formations {
 namespace {
 
-struct AssignmentRegistrationOptions {
-  double contact_rangeout_m = 650.0;
-  double ownship_weight = 0.1;
-  Choice<solvers::Matcher> matching{"sampled"};
-
-  static void declare(Options<AssignmentRegistrationOptions>& o) {
-    using A = AssignmentRegistrationOptions;
-    o.number("contact_rangeout_m", &A::contact_rangeout_m, "m", above(0),
-             "neighbours further away are ignored (Rypkema 2015, Table 3.7)");
-    o.number("ownship_weight", &A::ownship_weight, "", in(0, 1e3),
-             "weight of the own position; the author's trials ran with 1");
-    o.choice("matching", &A::matching, "finds slots and rotation");
-  }
-};
-
-/// Finds out which slots the vehicle and its neighbours take, moves the plan onto them, and goes to
-/// the slot found for the vehicle: Rypkema 2015, sec. 3.7, Alg. 8. Needs no ids. Remembers what its
-/// matching does.
-class AssignmentRegistration final : public Behaviour {
+class ByAssignment final : public Behaviour {
  public:
-  explicit AssignmentRegistration(const AssignmentRegistrationOptions& options)
+  explicit ByAssignment(const AssignmentRegistration& options)
       : options_(options),
         matcher_(options.matching.make()),
         registration_(Choice<solvers::RegistrationSolver>("procrustes").make()) {}
@@ -78,17 +62,25 @@ class AssignmentRegistration final : public Behaviour {
     points.resize(static_cast<std::size_t>(slots));
   }
 
-  AssignmentRegistrationOptions options_;
+  AssignmentRegistration options_;
   std::shared_ptr<const solvers::Matcher> matcher_;
   std::shared_ptr<const solvers::RegistrationSolver> registration_;
 };
 
-const Register<Behaviour, AssignmentRegistrationOptions> registered{
+const Register<Behaviour, AssignmentRegistration> registered{
     "assignment_registration",
     "which slots are these, by assignment over sampled rotations (Rypkema 2015, sec. 3.7); no ids",
-    [](const AssignmentRegistrationOptions& options) {
-      return std::make_unique<AssignmentRegistration>(options);
-    }};
+    [](const AssignmentRegistration& options) { return std::make_unique<ByAssignment>(options); }};
 
 }  // namespace
+
+void AssignmentRegistration::declare(Options<AssignmentRegistration>& o) {
+  using A = AssignmentRegistration;
+  o.number("contact_rangeout_m", &A::contact_rangeout_m, "m", above(0),
+           "neighbours further away are ignored (Rypkema 2015, Table 3.7)");
+  o.number("ownship_weight", &A::ownship_weight, "", in(0, 1e3),
+           "weight of the own position; the author's trials ran with 1");
+  o.choice("matching", &A::matching, "finds slots and rotation");
+}
+
 }  // namespace shoal::formations

@@ -1,3 +1,5 @@
+#include "shoal/formations/behaviours/attraction_repulsion.hpp"
+
 #include <functional>
 #include <limits>
 #include <memory>
@@ -75,40 +77,6 @@ class AttractionRepulsionCost final : public solvers::Objective {
 // What a Problem holds in place: posing one must not allocate.
 static_assert(sizeof(AttractionRepulsionCost) <= 256);
 
-enum class Combination { sum, mean };
-
-struct AttractionRepulsionOptions {
-  double contact_rangeout_m = 650.0;
-  double separation_m = 300.0;
-  Lattice lattice = Lattice::triangles;
-  Combination combination = Combination::sum;
-  double damping_per_m = 0.0;
-  Choice<Selection> selection{"two_neighbours"};
-  Choice<Cohesion> cohesion{"centroid"};
-  Choice<Potential> potential{"thesis"};
-  Choice<solvers::Solver> solver{"newton"};
-
-  static void declare(Options<AttractionRepulsionOptions>& o) {
-    using A = AttractionRepulsionOptions;
-    o.number("contact_rangeout_m", &A::contact_rangeout_m, "m", above(0),
-             "neighbours further away are ignored (Rypkema 2015, Table 3.4)");
-    o.number("separation_m", &A::separation_m, "m", above(0), "distance of lattice neighbours");
-    o.word("lattice", &A::lattice,
-           {{"triangles", Lattice::triangles}, {"squares", Lattice::squares}},
-           "of all vehicles alike, or of two kinds by the parity of their slots, which needs ids "
-           "(Spears et al. 2004); for squares a range between sqrt(2) and 2 separations, and all "
-           "in range");
-    o.word("combination", &A::combination, {{"sum", Combination::sum}, {"mean", Combination::mean}},
-           "of the potentials: their sum (eq. 3.7) or their mean (the author's program)");
-    o.number("damping_per_m", &A::damping_per_m, "1/m", at_least(0),
-             "friction over the time of a step: shortens the way to the minimum (0: all of it)");
-    o.choice("selection", &A::selection, "neighbours that the vehicle goes by");
-    o.choice("cohesion", &A::cohesion, "term against fracture");
-    o.choice("potential", &A::potential, "pair potential");
-    o.choice("solver", &A::solver, "minimises the cost");
-  }
-};
-
 /// Refuses what was chosen, where that or its options were written.
 template <class Family>
 [[noreturn]] void refuse(const Choice<Family>& choice, const std::string& why) {
@@ -117,11 +85,9 @@ template <class Family>
   throw InputError(setting.options().origin, path + "." + choice.kind() + ": " + why);
 }
 
-/// Goes to the nearest minimum of an attraction/repulsion potential of some neighbours: Rypkema
-/// 2015, sec. 3.4, Alg. 5. Needs no plan, and ids only to tell the kinds of a lattice of squares.
-class AttractionRepulsion final : public Behaviour {
+class ToPotentialMinimum final : public Behaviour {
  public:
-  explicit AttractionRepulsion(const AttractionRepulsionOptions& options)
+  explicit ToPotentialMinimum(const AttractionRepulsion& options)
       : options_(options),
         selection_(options.selection.make()),
         cohesion_(options.cohesion.make()),
@@ -195,19 +161,39 @@ class AttractionRepulsion final : public Behaviour {
     return cost;
   }
 
-  AttractionRepulsionOptions options_;
+  AttractionRepulsion options_;
   std::shared_ptr<const Selection> selection_;
   std::shared_ptr<const Cohesion> cohesion_;
   std::shared_ptr<const Potential> potential_;
   std::shared_ptr<const solvers::Solver> solver_;
 };
 
-const Register<Behaviour, AttractionRepulsionOptions> registered{
+const Register<Behaviour, AttractionRepulsion> registered{
     "attraction_repulsion",
     "nearest minimum of a pair potential of some neighbours (Rypkema 2015, sec. 3.4); no ids",
-    [](const AttractionRepulsionOptions& options) {
-      return std::make_unique<AttractionRepulsion>(options);
+    [](const AttractionRepulsion& options) {
+      return std::make_unique<ToPotentialMinimum>(options);
     }};
 
 }  // namespace
+
+void AttractionRepulsion::declare(Options<AttractionRepulsion>& o) {
+  using A = AttractionRepulsion;
+  o.number("contact_rangeout_m", &A::contact_rangeout_m, "m", above(0),
+           "neighbours further away are ignored (Rypkema 2015, Table 3.4)");
+  o.number("separation_m", &A::separation_m, "m", above(0), "distance of lattice neighbours");
+  o.word("lattice", &A::lattice, {{"triangles", Lattice::triangles}, {"squares", Lattice::squares}},
+         "of all vehicles alike, or of two kinds by the parity of their slots, which needs ids "
+         "(Spears et al. 2004); for squares a range between sqrt(2) and 2 separations, and all "
+         "in range");
+  o.word("combination", &A::combination, {{"sum", Combination::sum}, {"mean", Combination::mean}},
+         "of the potentials: their sum (eq. 3.7) or their mean (the author's program)");
+  o.number("damping_per_m", &A::damping_per_m, "1/m", at_least(0),
+           "friction over the time of a step: shortens the way to the minimum (0: all of it)");
+  o.choice("selection", &A::selection, "neighbours that the vehicle goes by");
+  o.choice("cohesion", &A::cohesion, "term against fracture");
+  o.choice("potential", &A::potential, "pair potential");
+  o.choice("solver", &A::solver, "minimises the cost");
+}
+
 }  // namespace shoal::formations

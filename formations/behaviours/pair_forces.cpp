@@ -1,3 +1,5 @@
+#include "shoal/formations/behaviours/pair_forces.hpp"
+
 #include <cmath>
 #include <memory>
 #include <utility>
@@ -11,46 +13,9 @@
 namespace shoal::formations {
 namespace {
 
-struct PairForcesOptions {
-  double contact_rangeout_m = 450.0;
-  double separation_m = 300.0;
-  Lattice lattice = Lattice::triangles;
-  double strength_m_s2 = 0.01;
-  double friction_per_s = 0.05;
-  Choice<Selection> selection{"in_range"};
-  Choice<Potential> potential{"physicomimetics"};
-
-  static void declare(Options<PairForcesOptions>& o) {
-    using P = PairForcesOptions;
-    o.number("contact_rangeout_m", &P::contact_rangeout_m, "m", above(0),
-             "vehicles further away are not felt: 1.5 separations in Spears et al. 2004, 1.7 for "
-             "squares");
-    o.number("separation_m", &P::separation_m, "m", above(0), "distance of lattice neighbours");
-    o.word("lattice", &P::lattice,
-           {{"triangles", Lattice::triangles}, {"squares", Lattice::squares}},
-           "of all vehicles alike, or of two kinds by the parity of their slots, which needs ids "
-           "(Spears et al. 2004)");
-    o.number("strength_m_s2", &P::strength_m_s2, "m/s2", above(0),
-             "acceleration where the potential has a slope of 1");
-    o.number("friction_per_s", &P::friction_per_s, "1/s", at_least(0),
-             "deceleration per own velocity; 0 conserves the energy of a closed swarm");
-    o.choice("selection", &P::selection, "neighbours whose forces the vehicle feels");
-    o.choice("potential", &P::potential, "pair potential, whose negative slope is the force");
-  }
-};
-
-/// Moves as a particle under the forces of its neighbours, with friction:
-/// a = -strength sum grad f - friction v.
-///
-/// The dynamics of the sources whose laws are registered as potentials: F = m a with friction
-/// (Spears et al. 2004; 1 - FR per time step there), springs with damping of the own velocity
-/// (Shucker and Bennett 2007), Lennard-Jones with a damping term (Pinciroli et al. 2008).
-/// attraction_repulsion goes to the minimum instead, where no velocity is left to damp. The own
-/// velocity is the one that the vehicle knows of, through the water for a drifter. How large a
-/// force may be is the matter of the guidance's envelope.
-class PairForces final : public Behaviour {
+class AsParticle final : public Behaviour {
  public:
-  explicit PairForces(const PairForcesOptions& options)
+  explicit AsParticle(const PairForces& options)
       : options_(options), selection_(options.selection.make()) {
     std::unique_ptr<Potential> potential = options.potential.make();
     if (const auto why = potential->complaint(options.separation_m)) {
@@ -97,15 +62,33 @@ class PairForces final : public Behaviour {
   }
 
  private:
-  PairForcesOptions options_;
+  PairForces options_;
   std::shared_ptr<const Selection> selection_;
   std::shared_ptr<const Potential> potential_;
 };
 
-const Register<Behaviour, PairForcesOptions> registered{
+const Register<Behaviour, PairForces> registered{
     "pair_forces",
     "forces of a pair potential of some neighbours, with friction (Spears et al. 2004)",
-    [](const PairForcesOptions& options) { return std::make_unique<PairForces>(options); }};
+    [](const PairForces& options) { return std::make_unique<AsParticle>(options); }};
 
 }  // namespace
+
+void PairForces::declare(Options<PairForces>& o) {
+  using P = PairForces;
+  o.number("contact_rangeout_m", &P::contact_rangeout_m, "m", above(0),
+           "vehicles further away are not felt: 1.5 separations in Spears et al. 2004, 1.7 for "
+           "squares");
+  o.number("separation_m", &P::separation_m, "m", above(0), "distance of lattice neighbours");
+  o.word("lattice", &P::lattice, {{"triangles", Lattice::triangles}, {"squares", Lattice::squares}},
+         "of all vehicles alike, or of two kinds by the parity of their slots, which needs ids "
+         "(Spears et al. 2004)");
+  o.number("strength_m_s2", &P::strength_m_s2, "m/s2", above(0),
+           "acceleration where the potential has a slope of 1");
+  o.number("friction_per_s", &P::friction_per_s, "1/s", at_least(0),
+           "deceleration per own velocity; 0 conserves the energy of a closed swarm");
+  o.choice("selection", &P::selection, "neighbours whose forces the vehicle feels");
+  o.choice("potential", &P::potential, "pair potential, whose negative slope is the force");
+}
+
 }  // namespace shoal::formations

@@ -1,3 +1,5 @@
+#include "shoal/formations/behaviours/pairwise_referencing.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <memory>
@@ -15,32 +17,6 @@ namespace shoal::formations {
 namespace {
 
 using Eigen::Vector2d;
-
-enum class Normalisation : std::uint8_t { weights, count };
-
-struct PairwiseReferencingOptions : Weights {
-  Normalisation normalisation = Normalisation::weights;
-  Choice<solvers::Loss> loss{"least_squares"};
-  Choice<solvers::Solver> solver{"newton"};
-
-  PairwiseReferencingOptions() { weighting = Weighting::distance; }
-
-  static void declare(Options<PairwiseReferencingOptions>& o) {
-    using P = PairwiseReferencingOptions;
-    o.number("contact_rangeout_m", &P::contact_rangeout_m, "m", above(0),
-             "pairs whose midpoint is further away are ignored");
-    declare_weighting(o,
-                      "weight of a pair: nearness of its midpoint (Alg. 6), or freshness of its "
-                      "pings (the author's program)");
-    o.word("normalisation", &P::normalisation,
-           {{"weights", Normalisation::weights}, {"count", Normalisation::count}},
-           "divide by the sum of weights (Alg. 6), or by the number of pairs (the author's "
-           "program: the target shrinks towards the vehicle as pings age)");
-    o.choice("loss", &P::loss, "what the distance from the place that a pair implies costs");
-    o.choice("solver", &P::solver,
-             "minimises the cost; the loss least_squares has a closed form, the mean");
-  }
-};
 
 /// How far the vehicle is from the places that pairs imply. Unknowns: its position (m, own frame).
 class DistanceFromPlaces final : public solvers::VectorFunction {
@@ -62,17 +38,9 @@ class DistanceFromPlaces final : public solvers::VectorFunction {
   std::vector<Vector2d> places_;
 };
 
-/// Places the vehicle with respect to every pair of neighbours as planned, and goes to the mean of
-/// these places: Rypkema 2015, sec. 3.5, Alg. 6, Table 3.5. Needs ids. With another loss than the
-/// square it goes where the weighted sum of losses is least.
-///
-/// Algorithm 6 projects from the actual midpoint by the planned angle alone; without the actual
-/// bearing of the pair the target would not turn with the formation (and its sine and cosine are
-/// exchanged for mathematical angles). The invariant that fixes both: with the neighbours placed as
-/// planned, up to any rotation and translation, the target is exactly the own slot.
-class PairwiseReferencing final : public Behaviour {
+class ByPairs final : public Behaviour {
  public:
-  explicit PairwiseReferencing(const PairwiseReferencingOptions& options)
+  explicit ByPairs(const PairwiseReferencing& options)
       : options_(options), loss_(options.loss.make()), solver_(options.solver.make()) {
     if (loss_->is_square()) return;
     const ChoiceSetting& loss = options.loss.setting();
@@ -197,6 +165,7 @@ class PairwiseReferencing final : public Behaviour {
   template <class Visit>
   Heard visit_places(const Neighbourhood& seen, const Plan& plan, Visit visit) const {
     const Vector2d& own_slot = plan.slot(seen.own_slot);
+    const Weights weights = Weights::of(options_);
     Heard heard;
     for (std::size_t i = 0; i < seen.neighbours.size(); ++i) {
       const Neighbour& a = seen.neighbours[i];
@@ -206,7 +175,7 @@ class PairwiseReferencing final : public Behaviour {
         const Neighbour& b = seen.neighbours[j];
         if (b.slot == anonymous) continue;
         const Vector2d midpoint = 0.5 * (a.position + b.position);
-        if (!options_.in_range(midpoint)) continue;
+        if (!weights.in_range(midpoint)) continue;
         ++heard.in_range;
 
         // The rotation from the planned to the actual direction of the pair.
@@ -220,7 +189,7 @@ class PairwiseReferencing final : public Behaviour {
         const Vector2d offset = own_slot - 0.5 * (plan.slot(a.slot) + plan.slot(b.slot));
         const Vector2d place{midpoint.x() + cosine * offset.x() - sine * offset.y(),
                              midpoint.y() + sine * offset.x() + cosine * offset.y()};
-        const double weight = options_.weight(midpoint, 0.5 * (a.age_s + b.age_s));
+        const double weight = weights.weight(midpoint, 0.5 * (a.age_s + b.age_s));
         visit(place, weight);
         heard.weight += weight;
         ++heard.placed;
@@ -238,17 +207,32 @@ class PairwiseReferencing final : public Behaviour {
     return std::nullopt;
   }
 
-  PairwiseReferencingOptions options_;
+  PairwiseReferencing options_;
   std::shared_ptr<const solvers::Loss> loss_;
   std::shared_ptr<const solvers::Solver> solver_;
 };
 
-const Register<Behaviour, PairwiseReferencingOptions> registered{
+const Register<Behaviour, PairwiseReferencing> registered{
     "pairwise_referencing",
     "mean of the places that each pair of identified neighbours implies (Rypkema 2015, sec. 3.5)",
-    [](const PairwiseReferencingOptions& options) {
-      return std::make_unique<PairwiseReferencing>(options);
-    }};
+    [](const PairwiseReferencing& options) { return std::make_unique<ByPairs>(options); }};
 
 }  // namespace
+
+void PairwiseReferencing::declare(Options<PairwiseReferencing>& o) {
+  using P = PairwiseReferencing;
+  o.number("contact_rangeout_m", &P::contact_rangeout_m, "m", above(0),
+           "pairs whose midpoint is further away are ignored");
+  declare_weighting(o,
+                    "weight of a pair: nearness of its midpoint (Alg. 6), or freshness of its "
+                    "pings (the author's program)");
+  o.word("normalisation", &P::normalisation,
+         {{"weights", Normalisation::weights}, {"count", Normalisation::count}},
+         "divide by the sum of weights (Alg. 6), or by the number of pairs (the author's "
+         "program: the target shrinks towards the vehicle as pings age)");
+  o.choice("loss", &P::loss, "what the distance from the place that a pair implies costs");
+  o.choice("solver", &P::solver,
+           "minimises the cost; the loss least_squares has a closed form, the mean");
+}
+
 }  // namespace shoal::formations

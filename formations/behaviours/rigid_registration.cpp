@@ -1,3 +1,5 @@
+#include "shoal/formations/behaviours/rigid_registration.hpp"
+
 #include <memory>
 #include <span>
 #include <vector>
@@ -9,30 +11,9 @@
 namespace shoal::formations {
 namespace {
 
-struct RigidRegistrationOptions : Weights {
-  double ownship_weight = 1.0;
-  Choice<solvers::Loss> loss{"least_squares"};
-  Choice<solvers::RegistrationSolver> registration{"procrustes"};
-
-  static void declare(Options<RigidRegistrationOptions>& o) {
-    using R = RigidRegistrationOptions;
-    o.number("contact_rangeout_m", &R::contact_rangeout_m, "m", above(0),
-             "neighbours further away are ignored");
-    o.number("ownship_weight", &R::ownship_weight, "", in(0, 1e3),
-             "weight of the own position; the lower, the closer the plan follows the neighbours");
-    declare_weighting(o,
-                      "weight of a neighbour: always 1 (sec. 3.6), its nearness, or the freshness "
-                      "of its pings, as pairwise_referencing weighs pairs");
-    o.choice("loss", &R::loss, "what the distance of a vehicle from its place in the plan costs");
-    o.choice("registration", &R::registration, "finds the motion of the plan");
-  }
-};
-
-/// Moves the plan rigidly onto what was heard and goes to the own slot: Rypkema 2015, sec. 3.6,
-/// eq. 3.8, Alg. 7, Table 3.6. Needs ids.
-class RigidRegistration final : public Behaviour {
+class ByRigidMotion final : public Behaviour {
  public:
-  explicit RigidRegistration(const RigidRegistrationOptions& options)
+  explicit ByRigidMotion(const RigidRegistration& options)
       : options_(options), loss_(options.loss.make()), registration_(options.registration.make()) {
     require_nothing_against(registration_->refuses({{}, loss_.get()}), "registration",
                             options.registration.setting(), options.loss.setting());
@@ -67,7 +48,7 @@ class RigidRegistration final : public Behaviour {
     if (own_counts) {
       *end++ = {plan.slot(seen.own_slot), Eigen::Vector2d::Zero(), options_.ownship_weight};
     }
-    const Weights weights = options_;  // a copy that no pair can alias stays in registers
+    const Weights weights = Weights::of(options_);  // which no pair can alias: stays in registers
     for (const Neighbour& n : seen.neighbours) {
       if (n.slot == anonymous || !weights.in_range(n.position)) continue;
       *end++ = {plan.slot(n.slot), n.position, weights.weight(n.position, n.age_s)};
@@ -76,17 +57,29 @@ class RigidRegistration final : public Behaviour {
     return pairs.size() > (own_counts ? 1 : 0) ? pairs : std::span<const solvers::PointPair>{};
   }
 
-  RigidRegistrationOptions options_;
+  RigidRegistration options_;
   std::shared_ptr<const solvers::Loss> loss_;
   std::shared_ptr<const solvers::RegistrationSolver> registration_;
 };
 
-const Register<Behaviour, RigidRegistrationOptions> registered{
+const Register<Behaviour, RigidRegistration> registered{
     "rigid_registration",
     "rigid motion of the plan onto the identified neighbours (Rypkema 2015, sec. 3.6)",
-    [](const RigidRegistrationOptions& options) {
-      return std::make_unique<RigidRegistration>(options);
-    }};
+    [](const RigidRegistration& options) { return std::make_unique<ByRigidMotion>(options); }};
 
 }  // namespace
+
+void RigidRegistration::declare(Options<RigidRegistration>& o) {
+  using R = RigidRegistration;
+  o.number("contact_rangeout_m", &R::contact_rangeout_m, "m", above(0),
+           "neighbours further away are ignored");
+  o.number("ownship_weight", &R::ownship_weight, "", in(0, 1e3),
+           "weight of the own position; the lower, the closer the plan follows the neighbours");
+  declare_weighting(o,
+                    "weight of a neighbour: always 1 (sec. 3.6), its nearness, or the freshness "
+                    "of its pings, as pairwise_referencing weighs pairs");
+  o.choice("loss", &R::loss, "what the distance of a vehicle from its place in the plan costs");
+  o.choice("registration", &R::registration, "finds the motion of the plan");
+}
+
 }  // namespace shoal::formations

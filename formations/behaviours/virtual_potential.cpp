@@ -1,3 +1,5 @@
+#include "shoal/formations/behaviours/virtual_potential.hpp"
+
 #include <cmath>
 #include <memory>
 #include <utility>
@@ -10,29 +12,9 @@
 namespace shoal::formations {
 namespace {
 
-/// What draws vehicles to the waypoint, and repels them on the way.
-struct VirtualPotentialOptions {
-  double contact_rangeout_m = 200.0;
-  double lead_s = 0.0;
-  VirtualPotentialGains gains;
-
-  static void declare(Options<VirtualPotentialOptions>& o) { declare_in(o); }
-
-  /// Also for options that are made of these and others.
-  template <class Made>
-  static void declare_in(Options<Made>& o) {
-    o.number("contact_rangeout_m", &Made::contact_rangeout_m, "m", above(0),
-             "vehicles further away are ignored");
-    o.number("lead_s", &Made::lead_s, "s", at_least(0),
-             "forces are those of where all vehicles will be so much later if they go on as they "
-             "do. A hull's course follows its rudder by some seconds, and a force that comes late "
-             "feeds oscillations in the cell; a lead of that time damps them");
-    o.table("gains", static_cast<VirtualPotentialGains Made::*>(&Made::gains),
-            "strengths and reaches of the potentials");
-  }
-
-  Eigen::Vector2d place(const OwnState& own) const { return own.position + lead_s * own.velocity; }
-};
+Eigen::Vector2d ahead(const OwnState& own, double lead_s) {
+  return own.position + lead_s * own.velocity;
+}
 
 /// The others as the potential takes them: their places in the frame of the own positions.
 ///
@@ -47,10 +29,9 @@ std::span<const Agent> agents_in_range(const Neighbourhood& seen, double range_m
   return agents;
 }
 
-/// The total control force of the virtual potential: Barisic et al. 2011, eq. 5, 21, 25.
-class VirtualPotentialForce final : public Behaviour {
+class DownThePotential final : public Behaviour {
  public:
-  explicit VirtualPotentialForce(const VirtualPotentialOptions& options) : options_(options) {}
+  explicit DownThePotential(const VirtualPotentialForce& options) : options_(options) {}
 
   bool needs_ids() const override { return false; }
   bool needs_waypoint() const override { return true; }
@@ -62,7 +43,7 @@ class VirtualPotentialForce final : public Behaviour {
   Target step(const Neighbourhood& seen, const Plan&, const Solving&) const override {
     const VirtualPotential potential(options_.gains, seen.waypoint, seen.obstacles);
     const auto others = agents_in_range(seen, options_.contact_rangeout_m, options_.lead_s);
-    const Eigen::Vector2d place = options_.place(seen.own);
+    const Eigen::Vector2d place = ahead(seen.own, options_.lead_s);
     const Eigen::Vector2d force = potential.force(place, seen.own.velocity, others);
     const double cost = potential.potential(place, others).value;
     if (!force.allFinite() || !std::isfinite(cost)) return Target::hold(Reason::solver_failed);
@@ -70,27 +51,12 @@ class VirtualPotentialForce final : public Behaviour {
   }
 
  private:
-  VirtualPotentialOptions options_;
+  VirtualPotentialForce options_;
 };
 
-struct VirtualPotentialStepOptions : VirtualPotentialOptions {
-  double reach_m = 30.0;
-  Choice<solvers::Solver> solver{"newton"};
-
-  static void declare(Options<VirtualPotentialStepOptions>& o) {
-    using S = VirtualPotentialStepOptions;
-    declare_in(o);
-    o.number("reach_m", &S::reach_m, "m", above(0), "no further east, north, west or south");
-    o.choice("solver", &S::solver, "minimises the potential within reach");
-  }
-};
-
-/// The same potential as a local optimisation problem: the minimum within reach is the target, and
-/// the vehicle's guidance steers there. Rotors, which have no potential, and damping, which
-/// guidance does not need, are left out.
-class VirtualPotentialStep final : public Behaviour {
+class ToMinimumWithinReach final : public Behaviour {
  public:
-  explicit VirtualPotentialStep(const VirtualPotentialStepOptions& options)
+  explicit ToMinimumWithinReach(const VirtualPotentialStep& options)
       : options_(options), solver_(options.solver.make()) {
     const VirtualPotential open(options.gains, Eigen::Vector2d::UnitX(), {});
     if (const auto why = solver_->refuses(problem(open, {}, {}))) {
@@ -120,28 +86,52 @@ class VirtualPotentialStep final : public Behaviour {
   solvers::Problem problem(const VirtualPotential& potential, const OwnState& own,
                            std::span<const Agent> others) const {
     solvers::Problem posed(Eigen::Vector2d::Zero(),
-                           VirtualPotentialCost(potential, options_.place(own), others));
+                           VirtualPotentialCost(potential, ahead(own, options_.lead_s), others));
     posed.lower = Eigen::Vector2d::Constant(-options_.reach_m);
     posed.upper = Eigen::Vector2d::Constant(options_.reach_m);
     return posed;
   }
 
-  VirtualPotentialStepOptions options_;
+  VirtualPotentialStep options_;
   std::shared_ptr<const solvers::Solver> solver_;
 };
 
-const Register<Behaviour, VirtualPotentialOptions> force{
+/// The options that both have.
+template <class Made>
+void declare_potential(Options<Made>& o) {
+  o.number("contact_rangeout_m", &Made::contact_rangeout_m, "m", above(0),
+           "vehicles further away are ignored");
+  o.number("lead_s", &Made::lead_s, "s", at_least(0),
+           "forces are those of where all vehicles will be so much later if they go on as they do. "
+           "A hull's course follows its rudder by some seconds, and a force that comes late feeds "
+           "oscillations in the cell; a lead of that time damps them");
+  o.table("gains", &Made::gains, "strengths and reaches of the potentials");
+}
+
+const Register<Behaviour, VirtualPotentialForce> force{
     "virtual_potential",
     "force of a waypoint, obstacles, rotors and formation cells (Barisic et al. 2011); no ids",
-    [](const VirtualPotentialOptions& options) {
-      return std::make_unique<VirtualPotentialForce>(options);
+    [](const VirtualPotentialForce& options) {
+      return std::make_unique<DownThePotential>(options);
     }};
 
-const Register<Behaviour, VirtualPotentialStepOptions> step{
+const Register<Behaviour, VirtualPotentialStep> step{
     "virtual_potential_step", "minimum within reach of the same potential, by a solver; no ids",
-    [](const VirtualPotentialStepOptions& options) {
-      return std::make_unique<VirtualPotentialStep>(options);
+    [](const VirtualPotentialStep& options) {
+      return std::make_unique<ToMinimumWithinReach>(options);
     }};
 
 }  // namespace
+
+void VirtualPotentialForce::declare(Options<VirtualPotentialForce>& o) {
+  declare_potential(o);
+}
+
+void VirtualPotentialStep::declare(Options<VirtualPotentialStep>& o) {
+  using S = VirtualPotentialStep;
+  declare_potential(o);
+  o.number("reach_m", &S::reach_m, "m", above(0), "no further east, north, west or south");
+  o.choice("solver", &S::solver, "minimises the potential within reach");
+}
+
 }  // namespace shoal::formations

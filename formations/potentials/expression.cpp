@@ -1,42 +1,17 @@
+#include "shoal/formations/potentials/expression.hpp"
+
 #include <memory>
 
 #include "shoal/core/text.hpp"
 #include "shoal/formations/formula.hpp"
-#include "shoal/formations/potential.hpp"
 
 namespace shoal::formations {
 namespace {
 
-/// A potential of your own, written as text: in a scenario, a study or `--set`.
-struct Expression {
-  std::string formula = "s^3/(2*r^2) + r - 3*s";  // Rypkema 2015, eq. 3.3
-  double from_m = 0.1;
-  double to_m = 10'000.0;
-
-  std::optional<std::string> complaint() const {
-    if (!(from_m < to_m)) return "from_m must be below to_m";
-    try {
-      Formula{formula};
-    } catch (const InputError& error) {
-      return quoted() + error.what();
-    }
-    return std::nullopt;
-  }
-
-  std::string quoted() const {
-    constexpr std::size_t shown = 80;
-    return "formula \"" + formula.substr(0, shown) + (formula.size() > shown ? "..." : "") + "\": ";
-  }
-
-  static void declare(Options<Expression>& o) {
-    o.text("formula", &Expression::formula,
-           "cost of the distance r and the separation s, in metres: + - * / ^ and sqrt exp log sin "
-           "cos tan asin acos atan sinh cosh tanh abs min max pow pi");
-    o.number("from_m", &Expression::from_m, "m", above(0),
-             "smallest distance at which the formula and two derivatives must be finite");
-    o.number("to_m", &Expression::to_m, "m", above(0), "largest such distance");
-  }
-};
+std::string quoted(const std::string& formula) {
+  constexpr std::size_t shown = 80;
+  return "formula \"" + formula.substr(0, shown) + (formula.size() > shown ? "..." : "") + "\": ";
+}
 
 class ExpressionPotential final : public Potential {
  public:
@@ -54,7 +29,7 @@ class ExpressionPotential final : public Potential {
     }
     const auto trouble = formula_.trouble(written_.from_m, written_.to_m, separation_m);
     if (!trouble) return std::nullopt;
-    return written_.quoted() + *trouble +
+    return quoted(written_.formula) + *trouble +
            "; change it, or the range from_m to to_m that it is meant for";
   }
 
@@ -68,4 +43,24 @@ const Register<Potential, Expression> registered{
     [](const Expression& written) { return std::make_unique<ExpressionPotential>(written); }};
 
 }  // namespace
+
+std::optional<std::string> Expression::complaint() const {
+  if (!(from_m < to_m)) return "from_m must be below to_m";
+  try {
+    Formula{formula};
+  } catch (const InputError& error) {
+    return quoted(formula) + error.what();
+  }
+  return std::nullopt;
+}
+
+void Expression::declare(Options<Expression>& o) {
+  o.text("formula", &Expression::formula,
+         "cost of the distance r and the separation s, in metres: + - * / ^ and sqrt exp log sin "
+         "cos tan asin acos atan sinh cosh tanh abs min max pow pi");
+  o.number("from_m", &Expression::from_m, "m", above(0),
+           "smallest distance at which the formula and two derivatives must be finite");
+  o.number("to_m", &Expression::to_m, "m", above(0), "largest such distance");
+}
+
 }  // namespace shoal::formations

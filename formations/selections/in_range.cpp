@@ -1,20 +1,7 @@
-#include <numeric>
-
-#include "shoal/formations/selection.hpp"
+#include "shoal/formations/selections/in_range.hpp"
 
 namespace shoal::formations {
 namespace {
-
-/// All of them: Rypkema 2015, eq. 3.5. Minima then lie nearer than the separation in the midst of a
-/// swarm and farther at its edge, which is why the thesis chooses two.
-struct InRange final : Selection {
-  void select(std::span<const Neighbour> in_range, std::vector<int>& chosen) const override {
-    chosen.resize(in_range.size());
-    std::iota(chosen.begin(), chosen.end(), 0);
-  }
-
-  static void declare(Options<InRange>&) {}
-};
 
 const Register<Selection, InRange> registered{"in_range",
                                               "all neighbours in range (Rypkema 2015, eq. 3.5)"};

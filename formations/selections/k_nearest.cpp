@@ -1,30 +1,7 @@
-#include <algorithm>
-#include <numeric>
-
-#include "shoal/formations/selection.hpp"
+#include "shoal/formations/selections/k_nearest.hpp"
 
 namespace shoal::formations {
 namespace {
-
-/// The k nearest neighbours; of two at the same distance the one that comes first.
-struct KNearest final : Selection {
-  std::int64_t k = 6;
-
-  void select(std::span<const Neighbour> in_range, std::vector<int>& chosen) const override {
-    chosen.resize(in_range.size());
-    std::iota(chosen.begin(), chosen.end(), 0);
-    const auto count = std::min(k, static_cast<std::int64_t>(chosen.size()));
-    const auto key = [&](int i) {
-      return std::pair(in_range[static_cast<std::size_t>(i)].position.squaredNorm(), i);
-    };
-    std::ranges::partial_sort(chosen, chosen.begin() + count, {}, key);
-    chosen.resize(static_cast<std::size_t>(count));
-  }
-
-  static void declare(Options<KNearest>& o) {
-    o.integer("k", &KNearest::k, "", at_least(1), "how many; 6 in a lattice of triangles");
-  }
-};
 
 const Register<Selection, KNearest> registered{"k_nearest", "the k nearest neighbours"};
 

@@ -1,14 +1,7 @@
-#include "shoal/solvers/loss.hpp"
+#include "shoal/solvers/losses/least_squares.hpp"
 
 namespace shoal::solvers {
 namespace {
-
-struct SquaredResidual final : Loss {
-  LossValue at(double squared) const override { return {squared, 1.0, 0.0}; }
-  bool is_square() const override { return true; }
-
-  static void declare(Options<SquaredResidual>&) {}
-};
 
 const Register<Loss, SquaredResidual> registered{"least_squares", "the square of the residual"};
 

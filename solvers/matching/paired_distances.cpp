@@ -140,17 +140,25 @@ RigidPose PairedDistances::descended(RigidPose pose, bool turning, double soften
 PairedDistances::Sine PairedDistances::bound_at(const RigidPose& pose) {
   const double cosine = std::cos(pose.angle), sine = std::sin(pose.angle);
   duals_.clear();
-  Eigen::Vector2d mean = Eigen::Vector2d::Zero();
+  Eigen::Vector2d rest = Eigen::Vector2d::Zero();
   for (std::size_t i = 0; i < points_.size(); ++i) {
     const Eigen::Vector2d r = turned(points_[i], cosine, sine) + pose.place - targets_[i];
     duals_.emplace_back(r / softened(r, least_softening_m));
-    mean += duals_.back();
+    rest += duals_.back();
   }
-  mean /= static_cast<double>(points_.size());
+  // The descent leaves a small rest of the sum, most of it from a pair that is laid upon one
+  // another, where the distance has its kink. That pair takes it, if it can: shared by all, it
+  // would make the longest too long, and all of them would have to shrink.
   double longest = 1.0;
-  for (Eigen::Vector2d& y : duals_) {
-    y -= mean;
-    longest = std::max(longest, y.norm());
+  const auto shortest = std::ranges::min_element(
+      duals_, {}, [](const Eigen::Vector2d& y) { return y.squaredNorm(); });
+  if ((*shortest - rest).norm() <= 1.0) {
+    *shortest -= rest;
+  } else {
+    for (Eigen::Vector2d& y : duals_) {
+      y -= rest / static_cast<double>(points_.size());
+      longest = std::max(longest, y.norm());
+    }
   }
   Sine bound{0.0, 0.0, 0.0};
   for (std::size_t i = 0; i < points_.size(); ++i) {

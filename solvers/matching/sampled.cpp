@@ -1,3 +1,5 @@
+#include "shoal/solvers/matching/sampled.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -7,32 +9,12 @@
 #include <tuple>
 
 #include "shoal/core/angles.hpp"
-#include "shoal/solvers/matching/matching.hpp"
 #include "shoal/solvers/matching/points.hpp"
 #include "shoal/solvers/matching/rotation_search.hpp"
 #include "shoal/solvers/matching/slot_subsets.hpp"
 
 namespace shoal::solvers {
 namespace {
-
-enum class Centroids : std::uint8_t { weighted, plain };
-
-struct SampledOptions {
-  double delta_theta_deg = 45.0;
-  double tie_m = 0.5;
-  Centroids centroids = Centroids::weighted;
-
-  static void declare(Options<SampledOptions>& o) {
-    o.number("delta_theta_deg", &SampledOptions::delta_theta_deg, "deg", delta_theta_range_deg(),
-             "step between the rotations tried; the thesis used 45 without currents, 10 in them");
-    o.number("tie_m", &SampledOptions::tie_m, "m", at_least(0.0),
-             "slots as far from the seed as the last one taken, within this, are taken too");
-    o.word("centroids", &SampledOptions::centroids,
-           {{"weighted", Centroids::weighted}, {"plain", Centroids::plain}},
-           "what is aligned: centroids with the ownship weight on the own point and on the seed "
-           "(the text of Alg. 8), or plain means (the author's program)");
-  }
-};
 
 // Metres. The wider, the longer it holds, and the more matches there are to look at.
 constexpr double margin_m = 60.0;
@@ -98,11 +80,9 @@ class MetSubsets {
   mutable std::vector<std::shared_ptr<const SlotSubsets>> met_;
 };
 
-/// Tries every slot as seed of the part of the plan that is seen, and every rotation by a multiple
-/// of delta theta; the cheapest assignment wins (Rypkema 2015, sec. 3.7, Alg. 8).
-class Sampled final : public Matcher {
+class SampledMatcher final : public Matcher {
  public:
-  explicit Sampled(const SampledOptions& options)
+  explicit SampledMatcher(const Sampled& options)
       : options_(options), turns_(options.delta_theta_deg) {}
 
   std::unique_ptr<Memory> new_memory() const override {
@@ -259,16 +239,28 @@ class Sampled final : public Matcher {
     return solution;
   }
 
-  SampledOptions options_;
+  Sampled options_;
   Turns turns_;
   MetSubsets met_;
 };
 
-const Register<Matcher, SampledOptions> registered{
+const Register<Matcher, Sampled> registered{
     "sampled",
     "every slot as seed, rotations by multiples of delta theta, optimal assignment in each "
     "(Rypkema 2015, sec. 3.7)",
-    [](const SampledOptions& options) { return std::make_unique<Sampled>(options); }};
+    [](const Sampled& options) { return std::make_unique<SampledMatcher>(options); }};
 
 }  // namespace
+
+void Sampled::declare(Options<Sampled>& o) {
+  o.number("delta_theta_deg", &Sampled::delta_theta_deg, "deg", delta_theta_range_deg(),
+           "step between the rotations tried; the thesis used 45 without currents, 10 in them");
+  o.number("tie_m", &Sampled::tie_m, "m", at_least(0.0),
+           "slots as far from the seed as the last one taken, within this, are taken too");
+  o.word("centroids", &Sampled::centroids,
+         {{"weighted", Centroids::weighted}, {"plain", Centroids::plain}},
+         "what is aligned: centroids with the ownship weight on the own point and on the seed "
+         "(the text of Alg. 8), or plain means (the author's program)");
+}
+
 }  // namespace shoal::solvers

@@ -1,3 +1,5 @@
+#include "shoal/solvers/smooth/ceres.hpp"
+
 #include <ceres/cost_function.h>
 #include <ceres/evaluation_callback.h>
 #include <ceres/first_order_function.h>
@@ -13,10 +15,6 @@
 
 namespace shoal::solvers {
 namespace {
-
-struct CeresOptions : Limits {
-  static void declare(Options<CeresOptions>& o) { declare_limits(o); }
-};
 
 /// Ceres' own tolerance is relative to |x|, which is about zero at a vehicle's target.
 class ShortStep final : public ceres::IterationCallback {
@@ -63,18 +61,18 @@ class Cost final : public ceres::FirstOrderFunction {
 template <ceres::LineSearchDirectionType direction>
 class LineSearch final : public Solver {
  public:
-  explicit LineSearch(const CeresOptions& options) : options_(options) {}
+  explicit LineSearch(const Limits& limits) : limits_(limits) {}
 
   Solution solve(const Problem& problem) const override {
     if (refuses(problem)) return refused(problem);
-    Attempt attempt(problem, options_);
+    Attempt attempt(problem, limits_);
     if (!attempt.open()) return attempt.finish(0, "");
 
     ceres::GradientProblem posed(new Cost(attempt));
     ShortStep short_step(attempt);
     ceres::GradientProblemSolver::Options options;
     options.line_search_direction_type = direction;
-    hand_over(short_step, options_, options);
+    hand_over(short_step, limits_, options);
     ceres::GradientProblemSolver::Summary summary;
     Problem::Vector y = attempt.start();
     ceres::Solve(options, posed, y.data(), &summary);
@@ -89,7 +87,7 @@ class LineSearch final : public Solver {
   }
 
  private:
-  CeresOptions options_;
+  Limits limits_;
 };
 
 // Sums of squares --------------------------------------------------------------------------------
@@ -144,11 +142,11 @@ class Trials final : public ceres::EvaluationCallback {
 /// Levenberg-Marquardt on the residuals.
 class TrustRegion final : public Solver {
  public:
-  explicit TrustRegion(const CeresOptions& options) : options_(options) {}
+  explicit TrustRegion(const Limits& limits) : limits_(limits) {}
 
   Solution solve(const Problem& problem) const override {
     if (refuses(problem)) return refused(problem);
-    Attempt attempt(problem, options_);
+    Attempt attempt(problem, limits_);
     if (!attempt.open()) return attempt.finish(0, "");
 
     const LeastSquares& structure = *problem.least_squares;
@@ -171,7 +169,7 @@ class TrustRegion final : public Solver {
     ShortStep short_step(attempt);
     ceres::Solver::Options options;
     options.linear_solver_type = ceres::DENSE_QR;
-    hand_over(short_step, options_, options);
+    hand_over(short_step, limits_, options);
     ceres::Solver::Summary summary;
     ceres::Solve(options, &posed, &summary);
     return attempt.finish(summary.termination_type,
@@ -185,19 +183,34 @@ class TrustRegion final : public Solver {
   }
 
  private:
-  CeresOptions options_;
+  Limits limits_;
 };
 
-template <class Member>
-const auto made = [](const CeresOptions& options) { return std::make_unique<Member>(options); };
+template <class Member, class Backend>
+const Register<Solver, Backend> registered_as(const char* name, const char* summary) {
+  return {name, summary,
+          [](const Backend& options) { return std::make_unique<Member>(Limits::of(options)); }};
+}
 
-const Register<Solver, CeresOptions> registered[] = {
-    {"ceres.lbfgs", "Ceres: limited-memory BFGS", made<LineSearch<ceres::LBFGS>>},
-    {"ceres.bfgs", "Ceres: BFGS", made<LineSearch<ceres::BFGS>>},
-    {"ceres.least_squares", "Ceres: Levenberg-Marquardt on residuals, with robust losses",
-     made<TrustRegion>}};
+const auto lbfgs = registered_as<LineSearch<ceres::LBFGS>, CeresLbfgs>(
+    "ceres.lbfgs", "Ceres: limited-memory BFGS");
+const auto bfgs = registered_as<LineSearch<ceres::BFGS>, CeresBfgs>("ceres.bfgs", "Ceres: BFGS");
+const auto least_squares = registered_as<TrustRegion, CeresLeastSquares>(
+    "ceres.least_squares", "Ceres: Levenberg-Marquardt on residuals, with robust losses");
 
 }  // namespace
+
+void CeresLbfgs::declare(Options<CeresLbfgs>& o) {
+  declare_limits(o);
+}
+
+void CeresBfgs::declare(Options<CeresBfgs>& o) {
+  declare_limits(o);
+}
+
+void CeresLeastSquares::declare(Options<CeresLeastSquares>& o) {
+  declare_limits(o);
+}
 
 void silence_backends() {
   FLAGS_minloglevel = google::GLOG_FATAL;

@@ -1,3 +1,5 @@
+#include "shoal/solvers/smooth/grid.hpp"
+
 #include <algorithm>
 #include <array>
 #include <span>
@@ -9,27 +11,13 @@ namespace {
 
 using Vector = Problem::Vector;
 
-struct GridOptions : GlobalLimits {
-  std::int64_t points_per_axis = 41;
-
-  GridOptions() { max_evaluations = 1'000'000; }
-
-  static void declare(Options<GridOptions>& o) {
-    declare_limits(o);
-    o.integer("points_per_axis", &GridOptions::points_per_axis, "", in(5, 1e5),
-              "points along each unknown, at every level");
-  }
-};
-
-/// Tries every point of a grid over the whole box, then of finer ones about the best, until the
-/// mesh is as fine as the tolerance: slow, and hard to mislead. An oracle for tests.
-class Grid final : public Solver {
+class GridSolver final : public Solver {
  public:
-  explicit Grid(const GridOptions& options) : options_(options) {}
+  explicit GridSolver(const Grid& options) : options_(options) {}
 
   Solution solve(const Problem& problem) const override {
     if (refuses(problem)) return refused(problem);
-    Attempt attempt(problem, options_);
+    Attempt attempt(problem, Limits::of(options_));
     if (!attempt.open()) return attempt.finish(0, "");
 
     const Vector lower = attempt.lower(), upper = attempt.upper();
@@ -91,12 +79,19 @@ class Grid final : public Solver {
     }
   }
 
-  GridOptions options_;
+  Grid options_;
 };
 
-const Register<Solver, GridOptions> registered{
+const Register<Solver, Grid> registered{
     "grid", "every point of a grid over the box, then of finer ones about the best: an oracle",
-    [](const GridOptions& options) { return std::make_unique<Grid>(options); }};
+    [](const Grid& options) { return std::make_unique<GridSolver>(options); }};
 
 }  // namespace
+
+void Grid::declare(Options<Grid>& o) {
+  declare_limits(o);
+  o.integer("points_per_axis", &Grid::points_per_axis, "", in(5, 1e5),
+            "points along each unknown, at every level");
+}
+
 }  // namespace shoal::solvers

@@ -1,3 +1,5 @@
+#include "shoal/solvers/smooth/ipopt.hpp"
+
 #include <coin/IpIpoptApplication.hpp>
 #include <coin/IpTNLP.hpp>
 #include <mutex>
@@ -9,10 +11,6 @@ namespace {
 
 using Ipopt::Index;
 using Ipopt::Number;
-
-struct IpoptOptions : Limits {
-  static void declare(Options<IpoptOptions>& o) { declare_limits(o); }
-};
 
 /// MUMPS keeps state that all solves of a process share: two at a time end the process. The same
 /// thread may nest them, since its inner solve lies between two calls of the outer one's MUMPS.
@@ -158,13 +156,13 @@ class Posed final : public Ipopt::TNLP {
   Eigen::MatrixXd hessian_ = Eigen::MatrixXd::Zero(n_, n_);
 };
 
-class InteriorPoint final : public Solver {
+class IpoptSolver final : public Solver {
  public:
-  explicit InteriorPoint(const IpoptOptions& options) : options_(options) {}
+  explicit IpoptSolver(const InteriorPoint& options) : options_(options) {}
 
   Solution solve(const Problem& problem) const override {
     if (refuses(problem)) return refused(problem);
-    Attempt attempt(problem, options_);
+    Attempt attempt(problem, Limits::of(options_));
     if (!attempt.open()) return attempt.finish(0, "");
 
     const std::lock_guard lock(mumps());
@@ -222,12 +220,17 @@ class InteriorPoint final : public Solver {
     }
   }
 
-  IpoptOptions options_;
+  InteriorPoint options_;
 };
 
-const Register<Solver, IpoptOptions> registered{
+const Register<Solver, InteriorPoint> registered{
     "ipopt", "Ipopt: interior point with the exact Hessian; one solve at a time in a process",
-    [](const IpoptOptions& options) { return std::make_unique<InteriorPoint>(options); }};
+    [](const InteriorPoint& options) { return std::make_unique<IpoptSolver>(options); }};
 
 }  // namespace
+
+void InteriorPoint::declare(Options<InteriorPoint>& o) {
+  declare_limits(o);
+}
+
 }  // namespace shoal::solvers

@@ -12,19 +12,21 @@ struct Limits {
   std::int64_t max_evaluations = 200;
   double x_tolerance_m = 1e-4;
 
-  template <class Declared>
-  static void declare_limits(Options<Declared>& o) {
-    o.integer("max_evaluations", &Declared::max_evaluations, "", in(1, 1e9),
-              "evaluations of the cost after which the solver stops");
-    // The optimum lies near the origin of the own frame, where a relative tolerance cannot be met.
-    o.number("x_tolerance_m", &Declared::x_tolerance_m, "m", in(1e-9, 1e6),
-             "step below which the solver stops, absolute");
+  /// Of a solver with options of these names.
+  template <class Solver>
+  static Limits of(const Solver& options) {
+    return {options.max_evaluations, options.x_tolerance_m};
   }
 };
 
-/// Limits for methods that search the whole box.
-struct GlobalLimits : Limits {
-  GlobalLimits() { max_evaluations = 20'000; }
-};
+/// Declares them among the options of a solver.
+template <class Solver>
+void declare_limits(Options<Solver>& o) {
+  o.integer("max_evaluations", &Solver::max_evaluations, "", in(1, 1e9),
+            "evaluations of the cost after which the solver stops");
+  // The optimum lies near the origin of the own frame, where a relative tolerance cannot be met.
+  o.number("x_tolerance_m", &Solver::x_tolerance_m, "m", in(1e-9, 1e6),
+           "step below which the solver stops, absolute");
+}
 
 }  // namespace shoal::solvers

@@ -1,3 +1,5 @@
+#include "shoal/solvers/smooth/multistart.hpp"
+
 #include <boost/random/sobol.hpp>
 
 #include <algorithm>
@@ -13,31 +15,9 @@ namespace {
 
 using Vector = Problem::Vector;
 
-struct MultistartOptions {
-  std::int64_t starts = 32;
-  double radius_m = 500.0;
-  double same_minimum_m = 0.1;
-  std::int64_t seed = 1;
-  Choice<Solver> solver{"newton"};
-
-  static void declare(Options<MultistartOptions>& o) {
-    using M = MultistartOptions;
-    o.integer("starts", &M::starts, "", in(1, 1e6),
-              "solves: the first from the problem's start, the others from points spread evenly");
-    o.number("radius_m", &M::radius_m, "m", above(0.0),
-             "half the side of the box round the start, for problems without bounds");
-    o.number("same_minimum_m", &M::same_minimum_m, "m", above(0.0),
-             "answers closer than this are one minimum");
-    o.integer("seed", &M::seed, "", in(0, 9007199254740992.0), "moves the starts as a whole");
-    o.choice("solver", &M::solver, "solves from each start, with its own budget");
-  }
-};
-
-/// The best answer of one solver from many starts: a Sobol sequence (low discrepancy), moved by a
-/// random shift modulo one, which keeps its evenness (Cranley and Patterson 1976).
-class Multistart final : public Solver {
+class MultistartSolver final : public Solver {
  public:
-  explicit Multistart(const MultistartOptions& options)
+  explicit MultistartSolver(const Multistart& options)
       : options_(options), solver_(options.solver.make()) {}
 
   Solution solve(const Problem& problem) const override {
@@ -106,13 +86,26 @@ class Multistart final : public Solver {
     return a.cost < b.cost || (std::isnan(b.cost) && !std::isnan(a.cost));
   }
 
-  MultistartOptions options_;
+  Multistart options_;
   std::shared_ptr<const Solver> solver_;
 };
 
-const Register<Solver, MultistartOptions> registered{
+const Register<Solver, Multistart> registered{
     "multistart", "the best answer of another solver from many starts",
-    [](const MultistartOptions& options) { return std::make_unique<Multistart>(options); }};
+    [](const Multistart& options) { return std::make_unique<MultistartSolver>(options); }};
 
 }  // namespace
+
+void Multistart::declare(Options<Multistart>& o) {
+  using M = Multistart;
+  o.integer("starts", &M::starts, "", in(1, 1e6),
+            "solves: the first from the problem's start, the others from points spread evenly");
+  o.number("radius_m", &M::radius_m, "m", above(0.0),
+           "half the side of the box round the start, for problems without bounds");
+  o.number("same_minimum_m", &M::same_minimum_m, "m", above(0.0),
+           "answers closer than this are one minimum");
+  o.integer("seed", &M::seed, "", in(0, 9007199254740992.0), "moves the starts as a whole");
+  o.choice("solver", &M::solver, "solves from each start, with its own budget");
+}
+
 }  // namespace shoal::solvers

@@ -1,3 +1,5 @@
+#include "shoal/solvers/smooth/newton.hpp"
+
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
 #include <algorithm>
@@ -8,24 +10,6 @@
 
 namespace shoal::solvers {
 namespace {
-
-struct NewtonOptions : Limits {
-  double first_radius_m = 30.0;
-  double largest_radius_m = 100.0;
-
-  static void declare(Options<NewtonOptions>& o) {
-    declare_limits(o);
-    o.number("first_radius_m", &NewtonOptions::first_radius_m, "m", above(0.0),
-             "the first step is at most this long");
-    o.number("largest_radius_m", &NewtonOptions::largest_radius_m, "m", above(0.0),
-             "no step is longer: well below the distance of neighbours, it keeps the way from "
-             "leaping over one of them");
-  }
-  std::optional<std::string> complaint() const {
-    if (first_radius_m <= largest_radius_m) return std::nullopt;
-    return "first_radius_m must not be above largest_radius_m";
-  }
-};
 
 template <int N>
 using Vec = Eigen::Matrix<double, N, 1>;
@@ -98,7 +82,7 @@ Vec<N> step_down(const Vec<N>& gradient, const Mat<N>& hessian, double radius, d
 template <int N>
 class Descent {
  public:
-  Descent(Attempt& attempt, const NewtonOptions& options) : attempt_(attempt), options_(options) {
+  Descent(Attempt& attempt, const Newton& options) : attempt_(attempt), options_(options) {
     if (attempt.bounded()) {
       lower_ = attempt.lower();
       upper_ = attempt.upper();
@@ -169,17 +153,17 @@ class Descent {
   }
 
   Attempt& attempt_;
-  const NewtonOptions& options_;
+  const Newton& options_;
   Vec<N> lower_, upper_;
 };
 
-class Newton final : public Solver {
+class TrustRegionNewton final : public Solver {
  public:
-  explicit Newton(const NewtonOptions& options) : options_(options) {}
+  explicit TrustRegionNewton(const Newton& options) : options_(options) {}
 
   Solution solve(const Problem& problem) const override {
     if (refuses(problem)) return refused(problem);
-    Attempt attempt(problem, options_);
+    Attempt attempt(problem, Limits::of(options_));
     if (!attempt.open()) return attempt.finish(0, "");
     switch (attempt.unknowns()) {
       case 1:
@@ -199,12 +183,27 @@ class Newton final : public Solver {
   }
 
  private:
-  NewtonOptions options_;
+  Newton options_;
 };
 
-const Register<Solver, NewtonOptions> registered{
+const Register<Solver, Newton> registered{
     "newton", "trust-region Newton on exact derivatives",
-    [](const NewtonOptions& options) { return std::make_unique<Newton>(options); }};
+    [](const Newton& options) { return std::make_unique<TrustRegionNewton>(options); }};
 
 }  // namespace
+
+std::optional<std::string> Newton::complaint() const {
+  if (first_radius_m <= largest_radius_m) return std::nullopt;
+  return "first_radius_m must not be above largest_radius_m";
+}
+
+void Newton::declare(Options<Newton>& o) {
+  declare_limits(o);
+  o.number("first_radius_m", &Newton::first_radius_m, "m", above(0.0),
+           "the first step is at most this long");
+  o.number("largest_radius_m", &Newton::largest_radius_m, "m", above(0.0),
+           "no step is longer: well below the distance of neighbours, it keeps the way from "
+           "leaping over one of them");
+}
+
 }  // namespace shoal::solvers

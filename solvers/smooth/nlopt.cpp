@@ -1,3 +1,5 @@
+#include "shoal/solvers/smooth/nlopt.hpp"
+
 #include <nlopt.h>
 
 #include <algorithm>
@@ -11,65 +13,6 @@ namespace {
 
 using Vector = Problem::Vector;
 
-/// For methods that follow the gradient from the start.
-struct LocalOptions : Limits {
-  static void declare(Options<LocalOptions>& o) { declare_limits(o); }
-};
-
-/// For methods that use no derivatives and probe the surroundings instead.
-struct ProbingOptions : Limits {
-  double initial_step_m = 1.0;
-
-  ProbingOptions() { max_evaluations = 1000; }
-
-  static void declare(Options<ProbingOptions>& o) { declare_probing(o); }
-
-  template <class Declared>
-  static void declare_probing(Options<Declared>& o) {
-    declare_limits(o);
-    o.number("initial_step_m", &Declared::initial_step_m, "m", above(0.0), "first step");
-  }
-};
-
-/// For methods that search the whole box.
-struct GlobalOptions : GlobalLimits {
-  std::int64_t polish_evaluations = 100;
-
-  static void declare(Options<GlobalOptions>& o) { declare_global(o); }
-
-  template <class Declared>
-  static void declare_global(Options<Declared>& o) {
-    declare_limits(o);
-    o.integer(
-        "polish_evaluations", &Declared::polish_evaluations, "", in(0, 1e9),
-        "kept of the budget (up to half of it) to go from the best point found to the nearest "
-        "minimum, by SLSQP: the methods for a whole box come close, and no closer");
-  }
-};
-
-/// Multi-level single linkage compares every start with all before: its time grows as their square.
-struct LinkageOptions : GlobalOptions {
-  LinkageOptions() { max_evaluations = 2000; }
-
-  static void declare(Options<LinkageOptions>& o) { declare_global(o); }
-};
-
-/// The same for methods that draw random numbers.
-template <class Drawless>
-struct Drawing : Drawless {
-  std::int64_t seed = 1;
-
-  static void declare(Options<Drawing>& o) {
-    if constexpr (std::is_same_v<Drawless, ProbingOptions>) {
-      Drawless::declare_probing(o);
-    } else {
-      Drawless::declare_global(o);
-    }
-    o.integer("seed", &Drawing::seed, "", in(0, 4294967295.0),
-              "of the random numbers that the method draws");
-  }
-};
-
 struct Algorithm {
   const char* name;
   const char* summary;
@@ -79,19 +22,21 @@ struct Algorithm {
   int least_unknowns = 1;
 };
 
-template <class SomeOptions>
-constexpr bool searches_a_box = std::is_base_of_v<GlobalOptions, SomeOptions>;
+template <class Method>
+constexpr bool searches_a_box = requires(const Method& method) {
+  method.polish_evaluations;
+};
 
 /// One solve: NLopt on one side, the attempt on the other.
-template <class SomeOptions>
+template <class Method>
 class Run {
  public:
-  Run(Attempt& attempt, const Algorithm& algorithm, const SomeOptions& options)
+  Run(Attempt& attempt, const Algorithm& algorithm, const Method& options)
       : attempt_(attempt), algorithm_(algorithm), options_(options) {}
 
   Solution solve() {
     nlopt_result result{};
-    if constexpr (searches_a_box<SomeOptions>) {
+    if constexpr (searches_a_box<Method>) {
       double cost_at_start = 0.0;  // at which these methods need not look by themselves
       attempt_.evaluate(attempt_.start().data(), cost_at_start);
       const std::int64_t kept = std::min(options_.polish_evaluations, options_.max_evaluations / 2);
@@ -107,7 +52,10 @@ class Run {
   }
 
  private:
-  static constexpr bool steps_along_lines = std::is_same_v<SomeOptions, LocalOptions>;
+  static constexpr bool steps_along_lines =
+      !searches_a_box<Method> && !requires(const Method& method) {
+    method.initial_step_m;
+  };
   using Handle = std::unique_ptr<nlopt_opt_s, decltype(&nlopt_destroy)>;
 
   nlopt_result minimise(nlopt_algorithm id, Vector x, std::int64_t evaluations) {
@@ -195,31 +143,30 @@ class Run {
 
   Attempt& attempt_;
   const Algorithm& algorithm_;
-  const SomeOptions& options_;
+  const Method& options_;
   nlopt_opt backend_ = nullptr;
 };
 
-template <class SomeOptions>
-class Nlopt final : public Solver {
+template <class Method>
+class NloptSolver final : public Solver {
  public:
-  Nlopt(const Algorithm& algorithm, const SomeOptions& options)
+  NloptSolver(const Algorithm& algorithm, const Method& options)
       : algorithm_(algorithm), options_(options) {}
 
   Solution solve(const Problem& problem) const override {
     if (refuses(problem)) return refused(problem);
-    Attempt attempt(problem, options_);
+    Attempt attempt(problem, Limits::of(options_));
     if (!attempt.open()) return attempt.finish(0, "");
-    return Run<SomeOptions>(attempt, algorithm_, options_).solve();
+    return Run<Method>(attempt, algorithm_, options_).solve();
   }
 
   std::optional<std::string> refuses(const Problem& problem) const override {
     if (problem.constraints && !algorithm_.takes_constraints) return "takes no constraints";
     if (problem.equalities && !algorithm_.takes_equalities) return "takes no equalities";
-    if (searches_a_box<SomeOptions> && !(problem.lower && problem.upper)) {
+    if (searches_a_box<Method> && !(problem.lower && problem.upper)) {
       return "needs bounds: it searches the whole box";
     }
-    if (searches_a_box<SomeOptions> &&
-        !(problem.lower->allFinite() && problem.upper->allFinite())) {
+    if (searches_a_box<Method> && !(problem.lower->allFinite() && problem.upper->allFinite())) {
       return "needs finite bounds: it searches the whole box";
     }
     const int unknowns = free_unknowns(problem);
@@ -238,75 +185,72 @@ class Nlopt final : public Solver {
   }
 
   Algorithm algorithm_;
-  SomeOptions options_;
+  Method options_;
 };
 
-template <class SomeOptions>
+template <class Method>
 void add(const Algorithm& algorithm) {
-  Register<Solver, SomeOptions>(algorithm.name, algorithm.summary,
-                                [algorithm](const SomeOptions& options) {
-                                  return std::make_unique<Nlopt<SomeOptions>>(algorithm, options);
-                                });
+  Register<Solver, Method>(algorithm.name, algorithm.summary, [algorithm](const Method& options) {
+    return std::make_unique<NloptSolver<Method>>(algorithm, options);
+  });
 }
 
 const bool registered = [] {
-  add<LocalOptions>(
+  add<nlopt::Lbfgs>(
       {.name = "nlopt.lbfgs", .summary = "NLopt: limited-memory BFGS", .id = NLOPT_LD_LBFGS});
-  add<LocalOptions>({.name = "nlopt.slsqp",
+  add<nlopt::Slsqp>({.name = "nlopt.slsqp",
                      .summary = "NLopt: sequential quadratic programming",
                      .id = NLOPT_LD_SLSQP,
                      .takes_constraints = true,
                      .takes_equalities = true});
-  add<LocalOptions>({.name = "nlopt.mma",
-                     .summary = "NLopt: method of moving asymptotes",
-                     .id = NLOPT_LD_MMA,
-                     .takes_constraints = true});
-  add<LocalOptions>({.name = "nlopt.ccsaq",
+  add<nlopt::Mma>({.name = "nlopt.mma",
+                   .summary = "NLopt: method of moving asymptotes",
+                   .id = NLOPT_LD_MMA,
+                   .takes_constraints = true});
+  add<nlopt::Ccsaq>({.name = "nlopt.ccsaq",
                      .summary = "NLopt: conservative convex separable quadratic approximations",
                      .id = NLOPT_LD_CCSAQ,
                      .takes_constraints = true});
-  add<LocalOptions>(
+  add<nlopt::TruncatedNewton>(
       {.name = "nlopt.tnewton", .summary = "NLopt: truncated Newton", .id = NLOPT_LD_TNEWTON});
-  add<LocalOptions>(
+  add<nlopt::VariableMetric>(
       {.name = "nlopt.var2", .summary = "NLopt: variable metric, rank 2", .id = NLOPT_LD_VAR2});
-  add<ProbingOptions>(
+  add<nlopt::Bobyqa>(
       {.name = "nlopt.bobyqa",
        .summary = "NLopt: quadratic models without derivatives (used by Rypkema 2015)",
        .id = NLOPT_LN_BOBYQA,
        .least_unknowns = 2});
-  add<ProbingOptions>({.name = "nlopt.cobyla",
-                       .summary = "NLopt: linear models without derivatives",
-                       .id = NLOPT_LN_COBYLA,
-                       .takes_constraints = true,
-                       .takes_equalities = true});
-  add<ProbingOptions>({.name = "nlopt.neldermead",
-                       .summary = "NLopt: Nelder-Mead simplex",
-                       .id = NLOPT_LN_NELDERMEAD});
-  add<ProbingOptions>({.name = "nlopt.sbplx",
+  add<nlopt::Cobyla>({.name = "nlopt.cobyla",
+                      .summary = "NLopt: linear models without derivatives",
+                      .id = NLOPT_LN_COBYLA,
+                      .takes_constraints = true,
+                      .takes_equalities = true});
+  add<nlopt::NelderMead>({.name = "nlopt.neldermead",
+                          .summary = "NLopt: Nelder-Mead simplex",
+                          .id = NLOPT_LN_NELDERMEAD});
+  add<nlopt::Subplex>({.name = "nlopt.sbplx",
                        .summary = "NLopt: Subplex, simplices on subspaces",
                        .id = NLOPT_LN_SBPLX});
-  add<Drawing<ProbingOptions>>({.name = "nlopt.praxis",
-                                .summary = "NLopt: principal axes, without derivatives",
-                                .id = NLOPT_LN_PRAXIS});
-  add<GlobalOptions>({.name = "nlopt.direct_l",
-                      .summary = "NLopt: dividing rectangles, in a box",
-                      .id = NLOPT_GN_DIRECT_L});
-  add<Drawing<GlobalOptions>>(
-      {.name = "nlopt.crs2",
-       .summary = "NLopt: controlled random search with local mutation, in a box",
-       .id = NLOPT_GN_CRS2_LM});
-  add<Drawing<GlobalOptions>>(
-      {.name = "nlopt.isres",
-       .summary = "NLopt: evolution strategy with stochastic ranking, in a box",
-       .id = NLOPT_GN_ISRES,
-       .takes_constraints = true,
-       .takes_equalities = true});
-  add<LinkageOptions>({.name = "nlopt.mlsl",
-                       .summary = "NLopt: L-BFGS from low-discrepancy starts, in a box",
-                       .id = NLOPT_GD_MLSL_LDS});
-  add<GlobalOptions>({.name = "nlopt.stogo",
-                      .summary = "NLopt: branch and bound with local searches, in a box",
-                      .id = NLOPT_GD_STOGO});
+  add<nlopt::Praxis>({.name = "nlopt.praxis",
+                      .summary = "NLopt: principal axes, without derivatives",
+                      .id = NLOPT_LN_PRAXIS});
+  add<nlopt::DirectL>({.name = "nlopt.direct_l",
+                       .summary = "NLopt: dividing rectangles, in a box",
+                       .id = NLOPT_GN_DIRECT_L});
+  add<nlopt::Crs2>({.name = "nlopt.crs2",
+                    .summary = "NLopt: controlled random search with local mutation, in a box",
+                    .id = NLOPT_GN_CRS2_LM});
+  add<nlopt::Isres>({.name = "nlopt.isres",
+                     .summary = "NLopt: evolution strategy with stochastic ranking, in a box",
+                     .id = NLOPT_GN_ISRES,
+                     .takes_constraints = true,
+                     .takes_equalities = true});
+  add<nlopt::Mlsl>({.name = "nlopt.mlsl",
+                    .summary = "NLopt: L-BFGS from low-discrepancy starts, in a box",
+                    .id = NLOPT_GD_MLSL_LDS});
+  add<nlopt::Stogo>({.name = "nlopt.stogo",
+                     .summary = "NLopt: branch and bound with local searches, in a box",
+                     .id = NLOPT_GD_STOGO});
   return true;
 }();
 

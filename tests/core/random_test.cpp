@@ -129,5 +129,15 @@ TEST(RandomStreams, TheTwoNumbersOfADrawAreUncorrelated) {
   }
 }
 
+TEST(RandomStreams, PurposesOfYourOwnHaveStreamsOfTheirOwn) {
+  constexpr Purpose mine("my_surfacing"), other("my_dive");
+  const RandomStreams streams(1);
+  EXPECT_EQ(mine.number(), Purpose("my_surfacing").number());
+  EXPECT_NE(streams.bits(mine, 0, 0), streams.bits(other, 0, 0));
+  for (const Purpose known : {Purpose::start, Purpose::heading, Purpose::process_noise}) {
+    EXPECT_NE(streams.bits(mine, 0, 0), streams.bits(known, 0, 0));
+  }
+}
+
 }  // namespace
 }  // namespace shoal

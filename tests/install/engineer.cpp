@@ -3,6 +3,7 @@
 #include <cmath>
 #include <cstdio>
 #include <memory>
+#include <shoal/formations/behaviours/rigid_registration.hpp>
 #include <shoal/formations/guidances/drift.hpp>
 #include <shoal/formations/planner.hpp>
 #include <string>
@@ -21,7 +22,7 @@ int main() {
   const std::vector<Vector2d> square{{0, 0}, {100, 0}, {100, 100}, {0, 100}};
   const auto plan = std::make_shared<const Plan>(names, square);
   const std::shared_ptr<const Behaviour> rigid =
-      shoal::Choice<Behaviour>("rigid_registration").make();
+      shoal::make<Behaviour>(RigidRegistration{.ownship_weight = 0.5});
   const auto drift = std::make_shared<const Drift>(DriftOptions{.period_s = 1.0});
 
   std::vector<Auv> auvs;
