@@ -4,10 +4,10 @@
 #include <filesystem>
 
 #include "commands.hpp"
-#include "shoal/analysis/study/cell_scenarios.hpp"
-#include "shoal/analysis/study/study_tables.hpp"
+#include "shoal/analysis/experiments/results/study_tables.hpp"
+#include "shoal/analysis/experiments/study/cell_scenarios.hpp"
+#include "shoal/analysis/experiments/trial.hpp"
 #include "shoal/analysis/tables/table.hpp"
-#include "shoal/analysis/trial.hpp"
 #include "shoal/core/text.hpp"
 #include "shoal/formations/csv_table.hpp"
 #include "shoal/scenarios/currents/netcdf_report.hpp"
@@ -37,20 +37,20 @@ void check_scenario(const fs::path& file) {
 
 /// Everything that a sweep would refuse before its trials, and the world of a cell of each group.
 void check_study(const fs::path& file) {
-  const analysis::StudyPlan plan(analysis::read_study(scenarios::read_toml(file)));
-  const std::size_t tables = analysis::require_answerable(plan);
-  analysis::CellScenarios scenarios(plan);
-  for (std::size_t g = 0; g < plan.groups().size(); ++g) {
-    for (std::size_t cell = plan.groups()[g].cells(); cell-- > 0;) {
+  const analysis::TrialList list(analysis::read_study(scenarios::read_toml(file)));
+  const std::size_t tables = analysis::require_answerable(list);
+  analysis::CellScenarios scenarios(list);
+  for (std::size_t g = 0; g < list.groups().size(); ++g) {
+    for (std::size_t cell = list.groups()[g].cells(); cell-- > 0;) {
       const scenarios::Scenario scenario = scenarios.of(g, cell).scenario;
       if (cell == 0) analysis::require_holdable(scenarios::World(scenario), false);
     }
   }
   std::size_t cells = 0;
-  for (const analysis::PlannedGroup& group : plan.groups()) cells += group.cells();
+  for (const analysis::TrialGroup& group : list.groups()) cells += group.cells();
   fmt::print("{}: a study of {} trials in {} cells; tables: {}, claims: {}\n", file.string(),
-             plan.trials(), cells, tables, plan.study().claims.claims.size());
-  for (const analysis::PlannedGroup& group : plan.groups()) {
+             list.trials(), cells, tables, list.study().claims.claims.size());
+  for (const analysis::TrialGroup& group : list.groups()) {
     std::string factors;
     for (const analysis::Axis& axis : group.axes()) {
       factors += (factors.empty() ? "" : " x ") + axis.name();

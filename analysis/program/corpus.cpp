@@ -1,10 +1,10 @@
-#include "shoal/analysis/corpus.hpp"
+#include "shoal/analysis/benchmarking/corpus.hpp"
 
 #include <fmt/core.h>
 
 #include "commands.hpp"
-#include "shoal/analysis/problem_recorder.hpp"
-#include "shoal/analysis/trial.hpp"
+#include "shoal/analysis/benchmarking/problem_recorder.hpp"
+#include "shoal/analysis/experiments/trial.hpp"
 #include "shoal/core/text.hpp"
 #include "shoal/scenarios/behaviour_choice.hpp"
 #include "shoal/scenarios/library_path.hpp"

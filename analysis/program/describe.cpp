@@ -4,9 +4,9 @@
 
 #include "commands.hpp"
 #include "print_options.hpp"
-#include "shoal/analysis/measure.hpp"
-#include "shoal/analysis/study/file_parts.hpp"
-#include "shoal/analysis/study/study.hpp"
+#include "shoal/analysis/experiments/measure.hpp"
+#include "shoal/analysis/experiments/study/file_parts.hpp"
+#include "shoal/analysis/experiments/study/study.hpp"
 #include "shoal/core/option_place.hpp"
 #include "shoal/core/text.hpp"
 #include "shoal/core/whole_file.hpp"

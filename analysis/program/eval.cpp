@@ -1,7 +1,7 @@
 #include <fmt/core.h>
 
 #include "commands.hpp"
-#include "shoal/analysis/evaluation.hpp"
+#include "shoal/analysis/experiments/evaluation.hpp"
 
 namespace shoal::program {
 

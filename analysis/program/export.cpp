@@ -1,9 +1,9 @@
-#include "shoal/analysis/study/export.hpp"
+#include "shoal/analysis/reporting/export.hpp"
 
 #include <fmt/core.h>
 
 #include "commands.hpp"
-#include "shoal/analysis/trial.hpp"
+#include "shoal/analysis/experiments/trial.hpp"
 #include "shoal/core/whole_file.hpp"
 
 namespace shoal::program {

@@ -1,8 +1,8 @@
 #include <fmt/core.h>
 
 #include "commands.hpp"
-#include "shoal/analysis/measure.hpp"
-#include "shoal/analysis/study/study.hpp"
+#include "shoal/analysis/experiments/measure.hpp"
+#include "shoal/analysis/experiments/study/study.hpp"
 #include "shoal/core/registry.hpp"
 #include "shoal/core/text.hpp"
 #include "shoal/scenarios/inheritance.hpp"

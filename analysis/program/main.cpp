@@ -11,9 +11,9 @@
 #include <thread>
 
 #include "commands.hpp"
-#include "shoal/analysis/evaluation.hpp"
-#include "shoal/analysis/plugins.hpp"
-#include "shoal/analysis/study/trial_outcome.hpp"
+#include "shoal/analysis/experiments/evaluation.hpp"
+#include "shoal/analysis/experiments/plugins.hpp"
+#include "shoal/analysis/experiments/store/trial_outcome.hpp"
 #include "shoal/core/error.hpp"
 #include "shoal/core/message.hpp"
 #include "shoal/core/text.hpp"

@@ -1,4 +1,4 @@
-#include "shoal/analysis/study/merge.hpp"
+#include "shoal/analysis/experiments/store/merge.hpp"
 
 #include <fmt/core.h>
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <vector>
 
-#include "shoal/analysis/study/study.hpp"
+#include "shoal/analysis/experiments/study/study.hpp"
 #include "shoal/core/text.hpp"
 #include "shoal/scenarios/library_path.hpp"
 #include "shoal/scenarios/scenario.hpp"

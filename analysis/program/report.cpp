@@ -3,8 +3,8 @@
 #include <filesystem>
 
 #include "commands.hpp"
-#include "shoal/analysis/report/run_report.hpp"
-#include "shoal/analysis/report/study_report.hpp"
+#include "shoal/analysis/reporting/run_report.hpp"
+#include "shoal/analysis/reporting/study_report.hpp"
 #include "shoal/core/error.hpp"
 
 namespace shoal::program {

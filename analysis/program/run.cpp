@@ -6,9 +6,9 @@
 
 #include "commands.hpp"
 #include "named_files.hpp"
-#include "shoal/analysis/problem_recorder.hpp"
-#include "shoal/analysis/report/run_report.hpp"
-#include "shoal/analysis/trial.hpp"
+#include "shoal/analysis/benchmarking/problem_recorder.hpp"
+#include "shoal/analysis/experiments/trial.hpp"
+#include "shoal/analysis/reporting/run_report.hpp"
 #include "shoal/core/error.hpp"
 #include "shoal/scenarios/toml_file.hpp"
 

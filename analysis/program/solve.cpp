@@ -1,8 +1,8 @@
 #include <fmt/core.h>
 
 #include "commands.hpp"
-#include "shoal/analysis/solver_comparison.hpp"
-#include "shoal/analysis/trial.hpp"
+#include "shoal/analysis/benchmarking/solver_comparison.hpp"
+#include "shoal/analysis/experiments/trial.hpp"
 #include "shoal/core/whole_file.hpp"
 #include "shoal/scenarios/toml_file.hpp"
 

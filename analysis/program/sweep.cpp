@@ -7,8 +7,8 @@
 #include "commands.hpp"
 #include "named_files.hpp"
 #include "python.hpp"
-#include "shoal/analysis/study/study_tables.hpp"
-#include "shoal/analysis/study/sweep.hpp"
+#include "shoal/analysis/experiments/results/study_tables.hpp"
+#include "shoal/analysis/experiments/sweep/sweep.hpp"
 #include "shoal/core/message.hpp"
 #include "shoal/core/text.hpp"
 #include "shoal/scenarios/toml_file.hpp"
@@ -71,12 +71,12 @@ void read_shard(const std::string& text, analysis::SweepSettings& settings) {
   }
 }
 
-analysis::StudyPlan plan_of(const SweepArguments& arguments) {
+analysis::TrialList plan_of(const SweepArguments& arguments) {
   Setting root = scenarios::read_toml(study_file(arguments.study));
   if (arguments.replications > 0) analysis::set_replications(root, arguments.replications);
-  analysis::StudyPlan plan(analysis::read_study(root));
-  analysis::require_answerable(plan);
-  return plan;
+  analysis::TrialList list(analysis::read_study(root));
+  analysis::require_answerable(list);
+  return list;
 }
 
 [[noreturn]] void sweep_by_dask(const SweepArguments& arguments) {
@@ -99,7 +99,7 @@ analysis::StudyPlan plan_of(const SweepArguments& arguments) {
 
 void sweep(const SweepArguments& arguments) {
   if (!arguments.dask.empty()) sweep_by_dask(arguments);
-  const analysis::StudyPlan plan = plan_of(arguments);
+  const analysis::TrialList list = plan_of(arguments);
   const fs::path folder = arguments.out.empty() ? fs::path("out") / fs::path(arguments.study).stem()
                                                 : fs::path(arguments.out);
   analysis::SweepSettings settings{.jobs = arguments.jobs,
@@ -111,7 +111,7 @@ void sweep(const SweepArguments& arguments) {
   if (!arguments.shard.empty()) read_shard(arguments.shard, settings);
   ProgressLine line(::isatty(STDERR_FILENO) == 1);
   settings.progress = [&](const SweepProgress& progress) { line.show(progress); };
-  const SweepProgress progress = analysis::sweep(plan, folder, settings);
+  const SweepProgress progress = analysis::sweep(list, folder, settings);
   line.end();
 
   fmt::print("{}: {} of {} trials are stored, {} of them run now in {:.1f} s\n", folder.string(),

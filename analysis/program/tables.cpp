@@ -3,9 +3,9 @@
 #include <algorithm>
 
 #include "commands.hpp"
-#include "shoal/analysis/study/claim_text.hpp"
-#include "shoal/analysis/study/study_files.hpp"
-#include "shoal/analysis/study/study_tables.hpp"
+#include "shoal/analysis/experiments/claims/claim_text.hpp"
+#include "shoal/analysis/experiments/results/study_tables.hpp"
+#include "shoal/analysis/experiments/study/study_files.hpp"
 #include "shoal/analysis/tables/latex_signs.hpp"
 #include "shoal/core/text.hpp"
 

@@ -1,6 +1,6 @@
 #include "conversions.hpp"
-#include "shoal/analysis/measure.hpp"
-#include "shoal/analysis/study/study.hpp"
+#include "shoal/analysis/experiments/measure.hpp"
+#include "shoal/analysis/experiments/study/study.hpp"
 #include "shoal/core/option_place.hpp"
 #include "shoal/scenarios/inheritance.hpp"
 #include "shoal/scenarios/library_path.hpp"

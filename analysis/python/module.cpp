@@ -1,6 +1,6 @@
 #include "conversions.hpp"
-#include "shoal/analysis/build_info.hpp"
-#include "shoal/analysis/plugins.hpp"
+#include "shoal/analysis/experiments/build_info.hpp"
+#include "shoal/analysis/experiments/plugins.hpp"
 #include "shoal/core/error.hpp"
 #include "shoal/solvers/solver.hpp"
 

@@ -2,13 +2,13 @@
 #include <filesystem>
 
 #include "conversions.hpp"
-#include "shoal/analysis/report/study_report.hpp"
-#include "shoal/analysis/study/cell_scenarios.hpp"
-#include "shoal/analysis/study/export.hpp"
-#include "shoal/analysis/study/open_sweep.hpp"
-#include "shoal/analysis/study/study_files.hpp"
-#include "shoal/analysis/study/study_tables.hpp"
-#include "shoal/analysis/study/sweep.hpp"
+#include "shoal/analysis/experiments/results/study_tables.hpp"
+#include "shoal/analysis/experiments/study/cell_scenarios.hpp"
+#include "shoal/analysis/experiments/study/study_files.hpp"
+#include "shoal/analysis/experiments/sweep/open_sweep.hpp"
+#include "shoal/analysis/experiments/sweep/sweep.hpp"
+#include "shoal/analysis/reporting/export.hpp"
+#include "shoal/analysis/reporting/study_report.hpp"
 #include "shoal/scenarios/library_path.hpp"
 #include "shoal/scenarios/toml_file.hpp"
 
@@ -18,14 +18,14 @@ namespace {
 namespace fs = std::filesystem;
 
 /// A study by name, by path, or as a dict.
-analysis::StudyPlan read(py::object study, int replications) {
+analysis::TrialList read(py::object study, int replications) {
   Setting root = py::isinstance<py::dict>(study)
                      ? to_setting(study)
                      : scenarios::read_toml(analysis::find_study(py::str(study)));
   if (replications > 0) analysis::set_replications(root, replications);
-  analysis::StudyPlan plan(analysis::read_study(root));
-  analysis::require_answerable(plan);
-  return plan;
+  analysis::TrialList list(analysis::read_study(root));
+  analysis::require_answerable(list);
+  return list;
 }
 
 py::dict counts(const analysis::SweepProgress& progress) {
@@ -50,7 +50,7 @@ std::string program_beside() {
 py::dict sweep(const py::object& study, const std::string& folder, int jobs, int replications,
                bool rerun_changed, bool retry_failed, const py::object& progress) {
   if (jobs < 1) throw InputError("jobs is " + std::to_string(jobs) + "; give at least 1");
-  const analysis::StudyPlan plan = read(study, replications);
+  const analysis::TrialList list = read(study, replications);
   analysis::SweepSettings settings{.jobs = jobs,
                                    .rerun_changed = rerun_changed,
                                    .retry_failed = retry_failed,
@@ -64,7 +64,7 @@ py::dict sweep(const py::object& study, const std::string& folder, int jobs, int
   analysis::SweepProgress done;
   {
     const py::gil_scoped_release free;
-    done = analysis::sweep(plan, folder, settings);
+    done = analysis::sweep(list, folder, settings);
   }
   return counts(done);
 }
@@ -74,14 +74,14 @@ class Sweep {
  public:
   Sweep(const py::object& study, const std::string& folder, int replications, bool rerun_changed,
         bool retry_failed, int jobs)
-      : plan_(read(study, replications)),
-        open_(plan_, folder,
+      : list_(read(study, replications)),
+        open_(list_, folder,
               {.jobs = jobs,
                .rerun_changed = rerun_changed,
                .retry_failed = retry_failed,
                .worker_program = "",
                .progress = {}}),
-        scenarios_(plan_) {}
+        scenarios_(list_) {}
 
   std::size_t size() const { return open_.tasks().size(); }
 
@@ -111,7 +111,7 @@ class Sweep {
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - began_).count();
   }
 
-  analysis::StudyPlan plan_;
+  analysis::TrialList list_;
   analysis::OpenSweep open_;
   analysis::CellScenarios scenarios_;
   std::chrono::steady_clock::time_point began_ = std::chrono::steady_clock::now();

@@ -1,10 +1,10 @@
 #include <optional>
 
 #include "conversions.hpp"
-#include "shoal/analysis/measures/formation_quality.hpp"
-#include "shoal/analysis/report/known_current.hpp"
-#include "shoal/analysis/report/run_report.hpp"
-#include "shoal/analysis/trial.hpp"
+#include "shoal/analysis/experiments/measures/formation_quality.hpp"
+#include "shoal/analysis/experiments/trial.hpp"
+#include "shoal/analysis/reporting/known_current.hpp"
+#include "shoal/analysis/reporting/run_report.hpp"
 #include "shoal/scenarios/netcdf_guard.hpp"
 #include "shoal/scenarios/toml_file.hpp"
 #include "watch.hpp"

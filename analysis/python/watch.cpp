@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <chrono>
 
-#include "shoal/analysis/trial.hpp"
+#include "shoal/analysis/experiments/trial.hpp"
 
 namespace shoal::python {
 namespace {

@@ -1,12 +1,12 @@
 // Tables of attribution, from stores whose trials "gave" known functions of their factors.
 
-#include "shoal/analysis/study/attribution_table.hpp"
+#include "shoal/analysis/experiments/results/attribution_table.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "shoal/analysis/study/study_files.hpp"
+#include "shoal/analysis/experiments/study/study_files.hpp"
 #include "shoal/scenarios/toml_file.hpp"
 #include "tests/support/scratch_folder.hpp"
 
@@ -54,10 +54,10 @@ class Attribution : public testing::Test {
  protected:
   /// `own` gives 100 + 10 seed + 4 [a = 10] + 8 [b = 5] + seed [both], `other` 50 + 6 [b = 5].
   Table table(const std::string& attribution, bool one_fails = false) {
-    const StudyPlan plan(read_study(scenarios::parse_toml(study_with(attribution), "study.toml")));
+    const TrialList list(read_study(scenarios::parse_toml(study_with(attribution), "study.toml")));
     Store store(folder_.path(), Store::Access::write);
-    for (const PlannedTrial& planned : plan.all_trials()) {
-      const PlannedGroup& group = plan.groups()[planned.group];
+    for (const ListedTrial& planned : list.all_trials()) {
+      const TrialGroup& group = list.groups()[planned.group];
       const auto labels = group.labels(planned.cell);
       StoredTrial trial;
       trial.key = group.key(planned.cell, planned.replication);
@@ -73,16 +73,16 @@ class Attribution : public testing::Test {
       if (one_fails && planned.group == 1 && planned.replication == 1) trial.failure = "it sank";
       store.write(trial);
     }
-    const StudyResults results(plan, store, {"energy_mean_wh"}, {});
-    return attribution_table(plan.study().attributions.front(), results);
+    const StudyResults results(list, store, {"energy_mean_wh"}, {});
+    return attribution_table(list.study().attributions.front(), results);
   }
 
   static std::string complaint(const std::string& attribution) {
     try {
-      const StudyPlan plan(
+      const TrialList list(
           read_study(scenarios::parse_toml(study_with(attribution), "study.toml")));
-      const StudyResults results(plan, {"energy_mean_wh"}, {});
-      attribution_table(plan.study().attributions.front(), results);
+      const StudyResults results(list, {"energy_mean_wh"}, {});
+      attribution_table(list.study().attributions.front(), results);
     } catch (const InputError& error) {
       return error.what();
     }
@@ -154,9 +154,9 @@ TEST_F(Attribution, RefusesWhatIsNoFullFactorial) {
 TEST_F(Attribution, RefusesAFactorOfThreeLevels) {
   std::string three = study_with("");
   three.replace(three.find("[10, 20]"), 8, "[10, 20, 30]");
-  const StudyPlan plan(read_study(scenarios::parse_toml(three + difference, "study.toml")));
-  const StudyResults results(plan, {"energy_mean_wh"}, {});
-  EXPECT_THROW(attribution_table(plan.study().attributions.front(), results), InputError);
+  const TrialList list(read_study(scenarios::parse_toml(three + difference, "study.toml")));
+  const StudyResults results(list, {"energy_mean_wh"}, {});
+  EXPECT_THROW(attribution_table(list.study().attributions.front(), results), InputError);
 }
 
 }  // namespace

@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 
-#include "shoal/analysis/study/cell_scenarios.hpp"
+#include "shoal/analysis/experiments/study/cell_scenarios.hpp"
 #include "shoal/scenarios/toml_file.hpp"
 #include "tests/core/settings.hpp"
 #include "tests/support/scratch_folder.hpp"
@@ -17,8 +17,8 @@ class CellIdentity : public testing::Test {
     folder_.write("sea.toml", scenario_);
     folder_.write("plan.csv", plan_);
     const auto study = folder_.write("study.toml", "scenario = \"" + base_ + "\"\n" + study_more);
-    const StudyPlan plan(read_study(scenarios::read_toml(study)));
-    return CellScenarios(plan).of(0, 0).identity;
+    const TrialList list(read_study(scenarios::read_toml(study)));
+    return CellScenarios(list).of(0, 0).identity;
   }
 
   tests::ScratchFolder folder_;
@@ -74,8 +74,8 @@ TEST_F(CellIdentity, TellsCellsApart) {
   const auto study = folder_.write("study.toml",
                                    "scenario = \"sea.toml\"\n[[factor]]\nkey = \"ping.period_s\"\n"
                                    "values = [15, 30]\n");
-  const StudyPlan plan(read_study(scenarios::read_toml(study)));
-  CellScenarios cells(plan);
+  const TrialList list(read_study(scenarios::read_toml(study)));
+  CellScenarios cells(list);
   EXPECT_NE(cells.of(0, 0).identity, cells.of(0, 1).identity);
   EXPECT_EQ(cells.of(0, 0).identity, cells.of(0, 0).identity);
 }

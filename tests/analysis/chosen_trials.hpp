@@ -10,8 +10,8 @@
 #include <string>
 #include <vector>
 
-#include "shoal/analysis/study/claim_verdicts.hpp"
-#include "shoal/analysis/study/study_tables.hpp"
+#include "shoal/analysis/experiments/claims/claim_verdicts.hpp"
+#include "shoal/analysis/experiments/results/study_tables.hpp"
 #include "shoal/core/whole_file.hpp"
 #include "shoal/scenarios/toml_file.hpp"
 
@@ -73,12 +73,12 @@ class ChosenTrials : public testing::Test {
                    const std::vector<scenarios::Series>& series = {}) {
     write_whole_file(folder_ / "claims.toml", claims);
     write_whole_file(folder_ / "study.toml", study_text(replications));
-    const StudyPlan plan(read_study(scenarios::read_toml(folder_ / "study.toml")));
-    require_answerable(plan);
+    const TrialList list(read_study(scenarios::read_toml(folder_ / "study.toml")));
+    require_answerable(list);
     Store store(folder_, Store::Access::write);
     store.together([&] {
-      for (const PlannedTrial& planned : plan.all_trials()) {
-        const PlannedGroup& group = plan.groups()[planned.group];
+      for (const ListedTrial& planned : list.all_trials()) {
+        const TrialGroup& group = list.groups()[planned.group];
         const auto labels = group.labels(planned.cell);
         StoredTrial trial;
         trial.key = group.key(planned.cell, planned.replication);
@@ -90,7 +90,7 @@ class ChosenTrials : public testing::Test {
         store.write(trial);
       }
     });
-    return judged_claims(read_results(plan, folder_), folder_);
+    return judged_claims(read_results(list, folder_), folder_);
   }
 
   /// The one claim on energies, in the group `calm` under the settings of the text.

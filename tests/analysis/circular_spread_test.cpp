@@ -1,4 +1,4 @@
-#include "shoal/analysis/measures/circular_spread.hpp"
+#include "shoal/analysis/experiments/measures/circular_spread.hpp"
 
 #include <gtest/gtest.h>
 

@@ -5,7 +5,7 @@
 #include <boost/math/distributions/students_t.hpp>
 #include <cmath>
 
-#include "shoal/analysis/study/claim_text.hpp"
+#include "shoal/analysis/experiments/claims/claim_text.hpp"
 #include "tests/analysis/chosen_trials.hpp"
 
 namespace shoal::analysis {

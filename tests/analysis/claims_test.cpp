@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "shoal/analysis/study/claim_text.hpp"
+#include "shoal/analysis/experiments/claims/claim_text.hpp"
 #include "tests/analysis/chosen_trials.hpp"
 #include "tests/core/settings.hpp"
 

@@ -1,4 +1,4 @@
-#include "shoal/analysis/corpus.hpp"
+#include "shoal/analysis/benchmarking/corpus.hpp"
 
 #include <gtest/gtest.h>
 
@@ -8,9 +8,9 @@
 #include <fstream>
 #include <iterator>
 
-#include "shoal/analysis/problem_recorder.hpp"
-#include "shoal/analysis/solver_comparison.hpp"
-#include "shoal/analysis/trial.hpp"
+#include "shoal/analysis/benchmarking/problem_recorder.hpp"
+#include "shoal/analysis/benchmarking/solver_comparison.hpp"
+#include "shoal/analysis/experiments/trial.hpp"
 #include "shoal/scenarios/behaviour_choice.hpp"
 #include "shoal/scenarios/toml_file.hpp"
 

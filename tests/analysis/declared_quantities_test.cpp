@@ -6,7 +6,7 @@
 #include <stdexcept>
 #include <tuple>
 
-#include "shoal/analysis/trial.hpp"
+#include "shoal/analysis/experiments/trial.hpp"
 #include "shoal/scenarios/toml_file.hpp"
 
 namespace shoal::analysis {

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "shoal/analysis/design.hpp"
+#include "shoal/analysis/statistics/design.hpp"
 
 namespace shoal::analysis {
 namespace {

@@ -18,7 +18,7 @@ from figures_test import FIGURES, REPEL
 
 matplotlib.use("Agg")
 TOP = pathlib.Path(__file__).resolve().parents[2] / "analysis"
-sys.path.insert(0, str(TOP / "figures"))
+sys.path.insert(0, str(TOP / "reporting" / "figures"))
 
 import made_tables  # noqa: E402
 import names  # noqa: E402
@@ -137,7 +137,7 @@ class FiguresDrawn(desk.Desk):
                        '[[table]]\nname = "much"\nmetrics = ["energy_mean_wh"]\n')
             self.write("study/tables/much.csv", "\n".join(",".join(row) for row in [
                 list(table.rows[0]), *(row.values() for row in table.rows)]) + "\n")
-            done = subprocess.run([sys.executable, "-B", TOP / "figures", "study"], cwd=self.desk,
+            done = subprocess.run([sys.executable, "-B", TOP / "reporting" / "figures", "study"], cwd=self.desk,
                                   text=True, capture_output=True, check=False)
             self.assert_complains(done, 2, ["much " + says, "with where in the request of much"])
 

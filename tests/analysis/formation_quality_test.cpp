@@ -1,4 +1,4 @@
-#include "shoal/analysis/measures/formation_quality.hpp"
+#include "shoal/analysis/experiments/measures/formation_quality.hpp"
 
 #include <gtest/gtest.h>
 #include <rapidcheck.h>

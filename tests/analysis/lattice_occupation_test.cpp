@@ -1,4 +1,4 @@
-#include "shoal/analysis/measures/lattice_occupation.hpp"
+#include "shoal/analysis/experiments/measures/lattice_occupation.hpp"
 
 #include <gtest/gtest.h>
 

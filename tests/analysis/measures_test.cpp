@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "shoal/analysis/trial.hpp"
+#include "shoal/analysis/experiments/trial.hpp"
 #include "shoal/core/angles.hpp"
 #include "shoal/core/text.hpp"
 #include "shoal/core/transform.hpp"

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <span>
 
-#include "shoal/analysis/trial.hpp"
+#include "shoal/analysis/experiments/trial.hpp"
 #include "shoal/scenarios/toml_file.hpp"
 #include "tests/analysis/parked_trials.hpp"
 

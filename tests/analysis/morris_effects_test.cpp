@@ -1,4 +1,4 @@
-#include "shoal/analysis/sensitivity/morris_effects.hpp"
+#include "shoal/analysis/statistics/sensitivity/morris_effects.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "shoal/analysis/report/outline.hpp"
+#include "shoal/analysis/reporting/outline.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "shoal/analysis/report/packed.hpp"
+#include "shoal/analysis/reporting/packed.hpp"
 
 #include <gtest/gtest.h>
 

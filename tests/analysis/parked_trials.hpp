@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "shoal/analysis/trial.hpp"
+#include "shoal/analysis/experiments/trial.hpp"
 #include "shoal/scenarios/toml_file.hpp"
 
 namespace shoal::analysis::test {

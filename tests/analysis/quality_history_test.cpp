@@ -1,4 +1,4 @@
-#include "shoal/analysis/measures/quality_history.hpp"
+#include "shoal/analysis/experiments/measures/quality_history.hpp"
 
 #include <gtest/gtest.h>
 

@@ -115,9 +115,9 @@ class Report(Desk):
             self.assertGreater(area, 0)
 
     def test_vehicles_have_the_colours_of_the_figures(self):
-        top = pathlib.Path(__file__).parents[2] / "analysis"
+        top = pathlib.Path(__file__).parents[2] / "analysis" / "reporting"
         lists = [re.findall(r'"(#\w{6}|ink)"', re.search(r"COLOURS = \[(.*?)\]", file.read_text()).group(1))
-                 for file in (top / "figures" / "style.py", top / "report" / "page" / "layers.js")]
+                 for file in (top / "figures" / "style.py", top / "page" / "layers.js")]
         self.assertEqual(len(lists[0]), 7)
         # Black is the ink of the page, which is light on dark.
         self.assertEqual([colour.replace("#000000", "ink") for colour in lists[0]], lists[1])

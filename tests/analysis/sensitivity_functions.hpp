@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
-#include "shoal/analysis/design.hpp"
-#include "shoal/analysis/sensitivity/sobol_indices.hpp"
+#include "shoal/analysis/statistics/design.hpp"
+#include "shoal/analysis/statistics/sensitivity/sobol_indices.hpp"
 
 namespace shoal::analysis::test {
 

@@ -1,13 +1,13 @@
 // Tables of sensitivity, from stores whose trials "gave" known functions of their factors.
 
-#include "shoal/analysis/study/sensitivity_table.hpp"
+#include "shoal/analysis/experiments/results/sensitivity_table.hpp"
 
 #include <gtest/gtest.h>
 #include <unistd.h>
 
 #include <filesystem>
 
-#include "shoal/analysis/study/study_files.hpp"
+#include "shoal/analysis/experiments/study/study_files.hpp"
 #include "shoal/core/text.hpp"
 #include "shoal/scenarios/toml_file.hpp"
 #include "tests/analysis/sensitivity_functions.hpp"
@@ -47,12 +47,12 @@ class Sensitivity : public testing::Test {
   /// constant.
   std::vector<Table> tables(const std::string& design, const test::Function& f,
                             std::size_t failing = SIZE_MAX) {
-    const StudyPlan plan(read_study(scenarios::parse_toml(
+    const TrialList list(read_study(scenarios::parse_toml(
         "scenario = \"construction_square\"\nreplications = 1\n" + design + three_factors,
         "study.toml")));
     Store store(folder_, Store::Access::write);
-    const PlannedGroup& group = plan.groups().front();
-    for (const PlannedTrial& planned : plan.all_trials()) {
+    const TrialGroup& group = list.groups().front();
+    for (const ListedTrial& planned : list.all_trials()) {
       StoredTrial trial;
       trial.key = group.key(planned.cell, planned.replication);
       trial.program = "test";
@@ -68,8 +68,8 @@ class Sensitivity : public testing::Test {
       }
       store.write(trial);
     }
-    const StudyResults results(plan, store, {"energy_mean_wh", "quality_settled_m"}, {});
-    return sensitivity_tables(plan.study().sensitivities.front(), results);
+    const StudyResults results(list, store, {"energy_mean_wh", "quality_settled_m"}, {});
+    return sensitivity_tables(list.study().sensitivities.front(), results);
   }
 
   std::filesystem::path folder_;

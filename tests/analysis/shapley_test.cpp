@@ -1,4 +1,4 @@
-#include "shoal/analysis/sensitivity/shapley.hpp"
+#include "shoal/analysis/statistics/sensitivity/shapley.hpp"
 
 #include <gtest/gtest.h>
 

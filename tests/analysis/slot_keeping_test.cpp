@@ -1,4 +1,4 @@
-#include "shoal/analysis/measures/slot_keeping.hpp"
+#include "shoal/analysis/experiments/measures/slot_keeping.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "shoal/analysis/sensitivity/sobol_indices.hpp"
+#include "shoal/analysis/statistics/sensitivity/sobol_indices.hpp"
 
 #include <gtest/gtest.h>
 

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "shoal/analysis/sensitivity/sobol_indices.hpp"
+#include "shoal/analysis/statistics/sensitivity/sobol_indices.hpp"
 #include "shoal/core/random.hpp"
 #include "tests/analysis/sensitivity_functions.hpp"
 

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "shoal/analysis/trial.hpp"
+#include "shoal/analysis/experiments/trial.hpp"
 #include "tests/analysis/parked_trials.hpp"
 
 namespace shoal::analysis {

@@ -1,4 +1,4 @@
-#include "shoal/analysis/study/store.hpp"
+#include "shoal/analysis/experiments/store/store.hpp"
 
 #include <gtest/gtest.h>
 
@@ -6,7 +6,7 @@
 #include <limits>
 #include <stdexcept>
 
-#include "shoal/analysis/study/stored_union.hpp"
+#include "shoal/analysis/experiments/store/stored_union.hpp"
 #include "shoal/core/error.hpp"
 #include "tests/support/nan_value.hpp"
 #include "tests/support/scratch_folder.hpp"

@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 
-#include "shoal/analysis/study/study.hpp"
+#include "shoal/analysis/experiments/study/study.hpp"
 #include "shoal/scenarios/toml_file.hpp"
 
 namespace shoal::analysis {

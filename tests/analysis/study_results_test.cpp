@@ -8,9 +8,9 @@
 #include <limits>
 #include <map>
 
-#include "shoal/analysis/study/cell_table.hpp"
-#include "shoal/analysis/study/difference_table.hpp"
-#include "shoal/analysis/study/study_tables.hpp"
+#include "shoal/analysis/experiments/results/cell_table.hpp"
+#include "shoal/analysis/experiments/results/difference_table.hpp"
+#include "shoal/analysis/experiments/results/study_tables.hpp"
 #include "shoal/scenarios/toml_file.hpp"
 #include "tests/core/settings.hpp"
 
@@ -46,10 +46,10 @@ class Stored : public testing::Test {
   void TearDown() override { std::filesystem::remove_all(folder_); }
 
   StudyResults results(const Energies& energies, const std::string& text = two_factors) {
-    const StudyPlan plan(read_study(scenarios::parse_toml(text, "study.toml")));
+    const TrialList list(read_study(scenarios::parse_toml(text, "study.toml")));
     Store store(folder_, Store::Access::write);
-    const PlannedGroup& group = plan.groups().front();
-    for (const PlannedTrial& planned : plan.all_trials()) {
+    const TrialGroup& group = list.groups().front();
+    for (const ListedTrial& planned : list.all_trials()) {
       StoredTrial trial;
       trial.key = group.key(planned.cell, planned.replication);
       trial.program = "test";
@@ -63,7 +63,7 @@ class Stored : public testing::Test {
       }
       store.write(trial);
     }
-    return {plan, store, {"energy_mean_wh"}, {}};
+    return {list, store, {"energy_mean_wh"}, {}};
   }
 
   std::filesystem::path folder_;
@@ -102,7 +102,7 @@ TEST_F(Stored, ATableShowsNAndFailuresAndTheBestOnlyIfATestTellsIt) {
 
 TEST_F(Stored, NotRunFailedUndefinedAndNeverReachedAreFourAnswers) {
   using enum Answer::Kind;
-  const StudyPlan plan(read_study(scenarios::parse_toml(two_factors, "study.toml")));
+  const TrialList list(read_study(scenarios::parse_toml(two_factors, "study.toml")));
   Store store(folder_, Store::Access::write);
   using Metrics = std::vector<std::pair<std::string, std::optional<double>>>;
   const std::vector<Metrics> trials{
@@ -111,15 +111,15 @@ TEST_F(Stored, NotRunFailedUndefinedAndNeverReachedAreFourAnswers) {
       {{"time_to_quality_20m_s", {}}, {"quality_watched_s", {}}, {"path_straightness", {}}},
       {}};
   for (std::size_t i = 0; i < trials.size(); ++i) {
-    const PlannedTrial& planned = plan.trial(i);
+    const ListedTrial& planned = list.trial(i);
     StoredTrial trial;
-    trial.key = plan.groups().front().key(planned.cell, planned.replication);
+    trial.key = list.groups().front().key(planned.cell, planned.replication);
     trial.program = "test";
     trial.metrics = trials[i];
     if (trials[i].empty()) trial.failure = "it sank";
     store.write(trial);
   }
-  const StudyResults all(plan, store, {"time_to_quality_20m_s", "path_straightness"}, {});
+  const StudyResults all(list, store, {"time_to_quality_20m_s", "path_straightness"}, {});
   const auto answer = [&](const char* metric, std::size_t i) {
     const Answer found = all.answer({.metric = metric}, i);
     return std::pair(found.kind, found.number);
@@ -248,10 +248,10 @@ metrics = ["energy_mean_wh"]
 class StoredTimes : public Stored {
  protected:
   StudyResults times(const std::vector<double>& ours, const std::vector<double>& theirs) {
-    const StudyPlan plan(read_study(scenarios::parse_toml(two_factors, "study.toml")));
+    const TrialList list(read_study(scenarios::parse_toml(two_factors, "study.toml")));
     Store store(folder_, Store::Access::write);
-    const PlannedGroup& group = plan.groups().front();
-    for (const PlannedTrial& planned : plan.all_trials()) {
+    const TrialGroup& group = list.groups().front();
+    for (const ListedTrial& planned : list.all_trials()) {
       const auto labels = group.labels(planned.cell);
       if (labels[1] != "10") continue;  // not run
       const auto k = static_cast<std::size_t>(planned.replication);
@@ -264,7 +264,7 @@ class StoredTimes : public Stored {
           {"quality_watched_s", time_s > 0.0 ? 3600.0 : -time_s}};
       store.write(trial);
     }
-    return {plan, store, {"time_to_quality_20m_s"}, {}};
+    return {list, store, {"time_to_quality_20m_s"}, {}};
   }
 };
 

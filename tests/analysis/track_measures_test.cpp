@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <numbers>
 
-#include "shoal/analysis/measures/energy_linearity.hpp"
-#include "shoal/analysis/trial.hpp"
+#include "shoal/analysis/experiments/measures/energy_linearity.hpp"
+#include "shoal/analysis/experiments/trial.hpp"
 #include "shoal/core/text.hpp"
 #include "shoal/scenarios/toml_file.hpp"
 

@@ -1,4 +1,4 @@
-#include "shoal/analysis/measures/tracks.hpp"
+#include "shoal/analysis/experiments/measures/tracks.hpp"
 
 #include <gtest/gtest.h>
 

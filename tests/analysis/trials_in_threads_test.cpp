@@ -3,7 +3,7 @@
 #include <atomic>
 #include <thread>
 
-#include "shoal/analysis/trial.hpp"
+#include "shoal/analysis/experiments/trial.hpp"
 #include "shoal/scenarios/toml_file.hpp"
 #include "shoal/solvers/solver.hpp"
 

@@ -2,7 +2,7 @@
 
 #include <random>
 
-#include "shoal/analysis/measures/formation_quality.hpp"
+#include "shoal/analysis/experiments/measures/formation_quality.hpp"
 
 namespace shoal::analysis {
 namespace {

@@ -6,13 +6,13 @@
 #include <filesystem>
 #include <string>
 
-#include "shoal/analysis/measure.hpp"
-#include "shoal/analysis/study/export.hpp"
-#include "shoal/analysis/study/manifest.hpp"
-#include "shoal/analysis/study/merge.hpp"
-#include "shoal/analysis/study/store.hpp"
-#include "shoal/analysis/study/study_files.hpp"
-#include "shoal/analysis/study/study_tables.hpp"
+#include "shoal/analysis/experiments/measure.hpp"
+#include "shoal/analysis/experiments/results/study_tables.hpp"
+#include "shoal/analysis/experiments/store/manifest.hpp"
+#include "shoal/analysis/experiments/store/merge.hpp"
+#include "shoal/analysis/experiments/store/store.hpp"
+#include "shoal/analysis/experiments/study/study_files.hpp"
+#include "shoal/analysis/reporting/export.hpp"
 #include "shoal/scenarios/toml_file.hpp"
 
 namespace shoal::analysis {
@@ -43,19 +43,19 @@ metrics = ["energy_mean_wh", "quality_settled_m", "efficiency_m_per_wh"]
 /// Beside it: 225 tests of 1000 differences each.
 const char* const its_best = "best = \"lowest\"\ncompare = \"behaviour\"\n";
 
-StudyPlan plan(const std::string& tables = a_table) {
-  return StudyPlan(read_study(scenarios::parse_toml(study_text + tables, "study.toml")));
+TrialList list(const std::string& tables = a_table) {
+  return TrialList(read_study(scenarios::parse_toml(study_text + tables, "study.toml")));
 }
 
 /// A trial with every metric that there is, and numbers that were not simulated.
-StoredTrial trial(const StudyPlan& plan, std::size_t i) {
-  const PlannedTrial& planned = plan.trial(i);
-  const PlannedGroup& group = plan.groups()[planned.group];
+StoredTrial trial(const TrialList& list, std::size_t i) {
+  const ListedTrial& planned = list.trial(i);
+  const TrialGroup& group = list.groups()[planned.group];
   StoredTrial made{.key = group.key(planned.cell, planned.replication),
                    .group = group.name(),
                    .factors = {},
                    .replication = planned.replication,
-                   .seed = plan.seed(planned),
+                   .seed = list.seed(planned),
                    .scenario = "0d3cba0f-0e03-5bbc-a66e-" + std::to_string(planned.cell),
                    .id = "06f80130-aaf3-55d0-9bd5-" + std::to_string(i),
                    .program = "bench",
@@ -102,7 +102,7 @@ class Folder {
 
 /// One of `parts` folders with 100,000 trials between them.
 void fill(const fs::path& folder, int part, int parts) {
-  const StudyPlan all = plan();
+  const TrialList all = list();
   write_study(all, folder);
   Manifest(all, folder).begin_sweep({});
   Store store(folder, Store::Access::write);
@@ -121,7 +121,7 @@ const fs::path& big_store() {
 /// As a sweep stores a trial: in a transaction of its own. `series` numbers against time with it.
 void store_write(benchmark::State& state) {
   const Folder folder("shoal_bench_write_");
-  const StudyPlan all = plan();
+  const TrialList all = list();
   Store store(folder.path(), Store::Access::write);
   std::size_t i = 0;
   for (auto _ : state) {
@@ -135,7 +135,7 @@ BENCHMARK(store_write)->Arg(0)->Arg(600)->Unit(benchmark::kMillisecond);
 void tabulate(benchmark::State& state, const std::string& tables) {
   const fs::path& folder = big_store();
   for (auto _ : state) {
-    const StudyResults results = read_results(plan(tables), folder);
+    const StudyResults results = read_results(list(tables), folder);
     std::size_t letters = 0;
     for (const Table& table : study_tables(results)) {
       letters += print(table, TableFormat::latex).size();

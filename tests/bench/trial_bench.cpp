@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "shoal/analysis/trial.hpp"
+#include "shoal/analysis/experiments/trial.hpp"
 #include "shoal/scenarios/toml_file.hpp"
 
 namespace {

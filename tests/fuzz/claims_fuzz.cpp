@@ -1,7 +1,7 @@
 // A file of claims.
 
 #include "fuzzed.hpp"
-#include "shoal/analysis/study/claim_request.hpp"
+#include "shoal/analysis/experiments/claims/claim_request.hpp"
 #include "shoal/scenarios/toml_file.hpp"
 
 using namespace shoal;

@@ -1,7 +1,7 @@
 // Recorded problems as `shoal solve` reads and solves them.
 
 #include "fuzzed.hpp"
-#include "shoal/analysis/solver_comparison.hpp"
+#include "shoal/analysis/benchmarking/solver_comparison.hpp"
 
 using namespace shoal;
 

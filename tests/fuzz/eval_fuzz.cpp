@@ -1,7 +1,7 @@
 // A table for `shoal eval`; the first byte chooses the model.
 
 #include "fuzzed.hpp"
-#include "shoal/analysis/evaluation.hpp"
+#include "shoal/analysis/experiments/evaluation.hpp"
 #include "shoal/core/registry.hpp"
 
 using namespace shoal;

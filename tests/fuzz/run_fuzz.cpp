@@ -1,7 +1,7 @@
 // run.nc as `shoal report` reads it. series.nc is another file of the same reader.
 
 #include "fuzzed.hpp"
-#include "shoal/analysis/report/recorded_run.hpp"
+#include "shoal/analysis/reporting/recorded_run.hpp"
 
 using namespace shoal;
 

@@ -1,7 +1,7 @@
 // The trials of a sweep, as `shoal tables` reads them.
 
 #include "fuzzed.hpp"
-#include "shoal/analysis/study/store.hpp"
+#include "shoal/analysis/experiments/store/store.hpp"
 
 using namespace shoal;
 

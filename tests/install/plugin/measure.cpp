@@ -1,6 +1,6 @@
 // A measure of your own: how far east the centroid is at the end.
 
-#include <shoal/analysis/measure.hpp>
+#include <shoal/analysis/experiments/measure.hpp>
 
 using namespace shoal;
 using namespace shoal::analysis;

@@ -1,0 +1,65 @@
+#pragma once
+
+#include <deque>
+#include <functional>
+#include <limits>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "shoal/analysis/benchmarking/corpus.hpp"
+#include "shoal/formations/planner.hpp"
+#include "shoal/scenarios/scenario.hpp"
+
+namespace shoal::analysis {
+
+/// Notes situations in which a vehicle solved problems. The trial's numbers do not change.
+///
+/// Of each vehicle at most `most` are kept, and once there are more, every second, fourth ... one,
+/// so that they stay evenly spread over time: planning at every tick, a vehicle has tens of
+/// thousands an hour.
+class ProblemRecorder {
+ public:
+  static constexpr std::size_t all = std::numeric_limits<std::size_t>::max();
+
+  explicit ProblemRecorder(std::size_t most = all) : most_(most) {}
+
+  /// For TrialSettings::plan_observer. One recorder serves one trial, and outlives it.
+  std::function<formations::PlanObserver&(std::size_t vehicle)> of_trial();
+
+  /// What was noted, vehicle by vehicle, in the order of time.
+  Corpus corpus(const scenarios::Scenario& scenario, const std::string& name,
+                const formations::Plan& plan) const;
+
+  /// Also those that were not kept.
+  std::size_t situations() const;
+
+ private:
+  class OfVehicle final : public formations::PlanObserver {
+   public:
+    explicit OfVehicle(std::size_t most) : most_(most) {}
+
+    /// The situation is noted, and not the problem, which it states again.
+    Wants wants() const override { return {.problems = false}; }
+    void answered(const solvers::Answer&, double) override { solved_ = true; }
+    void planned(const formations::Neighbourhood& seen, const formations::Target&) override;
+
+    std::span<const Situation> kept() const { return std::span(noted_).first(kept_); }
+    std::size_t situations() const { return situations_; }
+
+   private:
+    void keep_every_second();
+
+    const std::size_t most_;
+    std::vector<Situation> noted_;  // beyond kept_: room that is used again
+    std::size_t kept_ = 0;
+    std::size_t stride_ = 1;
+    std::size_t situations_ = 0;
+    bool solved_ = false;  // a problem, since the last plan
+  };
+
+  const std::size_t most_;
+  std::deque<OfVehicle> vehicles_;  // stay where they are
+};
+
+}  // namespace shoal::analysis

@@ -1,0 +1,44 @@
+#include "shoal/analysis/experiments/build_info.hpp"
+
+#include "shoal/core/text.hpp"
+#include "source_id.inc"
+
+namespace shoal::analysis {
+namespace {
+
+std::string compiler() {
+#if defined(__clang__)
+  return "Clang " __clang_version__;
+#else
+  return "GCC " __VERSION__;
+#endif
+}
+
+/// "Eigen 3.4.0|Boost 1.74.0": as CMake found them.
+std::vector<std::pair<std::string, std::string>> libraries() {
+  std::vector<std::pair<std::string, std::string>> found;
+  for (const std::string_view entry : split(SHOAL_BUILT_WITH, '|')) {
+    const auto space = entry.find(' ');
+    found.emplace_back(entry.substr(0, space), entry.substr(space + 1));
+  }
+  return found;
+}
+
+BuildInfo& known() {
+  static BuildInfo info{SHOAL_VERSION, std::string(SHOAL_VERSION) + "-" + source_hash,
+                        source_commit, source_dirty,
+                        compiler(),    libraries()};
+  return info;
+}
+
+}  // namespace
+
+const BuildInfo& build_info() {
+  return known();
+}
+
+void add_to_program(const std::string& plugin) {
+  known().program += "+" + plugin;
+}
+
+}  // namespace shoal::analysis
