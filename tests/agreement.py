@@ -29,8 +29,8 @@ TRIALS = {
     "BHV4_Assignment_Registration": ("assignment_registration", "assignment_1.csv", 53.3),
 }
 
-# our metric: (column of the log, bound, whether the bound is relative)
-METRICS = {
+# our measure: (column of the log, bound, whether the bound is relative)
+MEASURES = {
     "thrust_time_ratio_mean": ("time_thrust_ratio_mean", 0.015, False),
     "thrust_distance_ratio_mean": ("dist_thrust_ratio_of_means", 0.03, False),
     "centroid_displacement_m": ("centroid_displacement_m", 0.10, True),
@@ -43,13 +43,13 @@ ENERGIES = ("energy_mean_wh", "efficiency_m_per_wh")
 
 
 def shoal(options, scenario, seed, settings):
-    """The metrics of one run."""
+    """The measures of one run."""
     with tempfile.TemporaryDirectory() as out:
         command = [str(options.shoal), "run", scenario, "--seed", str(seed), "--out", out]
         for key, value in {"trial.record_every_s": 0, **settings}.items():
             command += ["--set", f"{key}={value}"]
         subprocess.run(command, check=True, stdout=subprocess.DEVNULL)
-        return json.loads((pathlib.Path(out) / "summary.json").read_text())["metrics"]
+        return json.loads((pathlib.Path(out) / "summary.json").read_text())["measures"]
 
 
 def run(options, trial, seed, settings):
@@ -69,7 +69,7 @@ def means(options, trial, settings):
     with concurrent.futures.ThreadPoolExecutor(options.jobs) as pool:
         seeds = range(1, options.seeds + 1)
         runs = list(pool.map(lambda seed: run(options, trial, seed, settings), seeds))
-    return {name: sum(r[name] for r in runs) / len(runs) for name in METRICS}
+    return {name: sum(r[name] for r in runs) / len(runs) for name in MEASURES}
 
 
 def compare(options, log, trial, settings):
@@ -78,8 +78,8 @@ def compare(options, log, trial, settings):
     ours = means(options, trial, settings)
     outside = 0
     print(f"\n{behaviour}: mean of {options.seeds} seeds beside the log {trial}")
-    print(f"  {'metric':<28}{'shoal':>10}{'log':>10}{'difference':>12}{'bound':>9}")
-    for name, (column, bound, relative) in METRICS.items():
+    print(f"  {'measure':<28}{'shoal':>10}{'log':>10}{'difference':>12}{'bound':>9}")
+    for name, (column, bound, relative) in MEASURES.items():
         if name in ENERGIES:
             bound = WIDER.get(behaviour, bound)
         theirs = float(log[trial][column])
@@ -105,7 +105,7 @@ def assignment_by_age(options, log):
         print(f"  {label:<10}" + "".join(f"{values[name]:>28.4g}" for name in names), flush=True)
 
     row("ping", means(options, trial, {"planner.update": "ping"}))
-    logged = {name: float(log[trial][METRICS[name][0]]) for name in names}
+    logged = {name: float(log[trial][MEASURES[name][0]]) for name in names}
     below = None
     found = None
     for period in options.periods:

@@ -42,8 +42,8 @@ def run(shoal, scenario, behaviour, seed):
                         "--set", f"behaviour.kind={behaviour}", "--set", f"guidance.kind={guidance}",
                         "--set", f"trial.duration_s={DURATION_S}",
                         "--set", "trial.record_every_s=0"], check=True, stdout=subprocess.DEVNULL)
-        metrics = json.loads((pathlib.Path(out) / "summary.json").read_text())["metrics"]
-    return [metrics[name] for name in MEASURES]
+        measures = json.loads((pathlib.Path(out) / "summary.json").read_text())["measures"]
+    return [measures[name] for name in MEASURES]
 
 
 def measure(shoal):

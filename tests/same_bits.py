@@ -76,8 +76,8 @@ def digest(folder):
             data.set_auto_mask(False)
             for variable in sorted(data.variables):
                 bits.update(variable.encode() + data.variables[variable][:].tobytes())
-    metrics = json.loads((folder / "summary.json").read_text())["metrics"]
-    bits.update(json.dumps(metrics).encode())
+    measures = json.loads((folder / "summary.json").read_text())["measures"]
+    bits.update(json.dumps(measures).encode())
     return bits.hexdigest()
 
 

@@ -34,8 +34,8 @@ def run(arguments, scenario, solver, seed):
                         "--set", f"behaviour.attraction_repulsion.solver.kind={solver}",
                         "--set", f"trial.duration_s={arguments.duration}",
                         "--set", "trial.record_every_s=0"], check=True, stdout=subprocess.DEVNULL)
-        metrics = json.loads((pathlib.Path(out) / "summary.json").read_text())["metrics"]
-    return [metrics[name] for name in MEASURES]
+        measures = json.loads((pathlib.Path(out) / "summary.json").read_text())["measures"]
+    return [measures[name] for name in MEASURES]
 
 
 def paired_p(values, reference):

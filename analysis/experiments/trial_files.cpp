@@ -56,9 +56,9 @@ std::string summary_json(const Trial& trial, const std::string& name) {
   summary["stopped_by"] = trial.world->stopped_by();
   summary["wall_s"] = trial.wall_s;
   summary["vehicle_seconds_per_wall_s"] = trial.vehicle_seconds_per_wall_s();
-  Json& metrics = summary["metrics"] = Json::object();
-  for (const auto& [metric, value] : trial.results.values) {
-    metrics[metric] = value ? Json(*value) : Json(nullptr);
+  Json& measures = summary["measures"] = Json::object();
+  for (const auto& [measure, value] : trial.results.values) {
+    measures[measure] = value ? Json(*value) : Json(nullptr);
   }
   return summary.dump(2) + "\n";
 }

@@ -17,7 +17,7 @@ void export_study(const std::string& folder, const std::string& out) {
   using State = analysis::StudyResults::State;
   const analysis::StudyResults& results = exported.results();
   fmt::print("written: {}/{{trials.csv,study.nc}}, {} trials, {} failed, {} missing\n",
-             place.string(), results.plan().trials(), results.count(State::failed),
+             place.string(), results.list().trials(), results.count(State::failed),
              results.count(State::missing));
 }
 

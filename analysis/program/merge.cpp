@@ -19,9 +19,9 @@ void merge(const std::string& folder, const std::vector<std::string>& others) {
     }
     fmt::print("{}\n", line);
   }
-  const std::size_t missing = merged.plan.trials() - merged.stored;
+  const std::size_t missing = merged.list.trials() - merged.stored;
   fmt::print("{}: {} of {} trials are stored, {} failed, {} are missing\n", folder, merged.stored,
-             merged.plan.trials(), merged.failed, missing);
+             merged.list.trials(), merged.failed, missing);
   // A part of a study has no tables of its own.
   if (missing == 0) return tables(folder, true);
   fmt::print("shoal sweep {0}/study.toml --out {0} runs them\n", folder);

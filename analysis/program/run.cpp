@@ -32,11 +32,11 @@ void print_summary(const analysis::Trial& trial, const std::string& name) {
              trial.scenario.behaviour.kind(), trial.world->size(), trial.world->time_s(),
              trial.world->stopped_by(), trial.scenario.trial.seed);
   std::vector<std::string> without;
-  for (const auto& [metric, value] : trial.results.values) {
+  for (const auto& [measure, value] : trial.results.values) {
     if (value) {
-      fmt::print("  {:<30} {:>12.6g}\n", metric, *value);
+      fmt::print("  {:<30} {:>12.6g}\n", measure, *value);
     } else {
-      without.push_back(metric);
+      without.push_back(measure);
     }
   }
   if (!without.empty()) print_wrapped("  never, or not of this trial:", without);

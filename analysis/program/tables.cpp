@@ -82,7 +82,7 @@ void print_statement(const analysis::JudgedStatement& statement, const Judgement
 }  // namespace
 
 void tables(const std::string& folder, bool summary) {
-  const StudyResults results = analysis::read_results(analysis::stored_plan(folder), folder);
+  const StudyResults results = analysis::read_results(analysis::stored_list(folder), folder);
   const std::vector<analysis::Table> tables = analysis::study_tables(results);
   const Judgement claims = analysis::judged_claims(results, folder);
   // After a sweep, the first table: the one that the study begins with.
@@ -95,7 +95,7 @@ void tables(const std::string& folder, bool summary) {
 }
 
 void claims(const std::string& folder) {
-  const StudyResults results = analysis::read_results(analysis::stored_plan(folder), folder);
+  const StudyResults results = analysis::read_results(analysis::stored_list(folder), folder);
   const Judgement judgement = analysis::judged_claims(results, folder);
   if (judgement.statements.empty()) {
     throw InputError(folder +

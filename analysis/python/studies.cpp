@@ -145,7 +145,7 @@ void append_claim(py::list& rows, const analysis::JudgedStatement& statement,
 }
 
 py::list claims(const std::string& folder) {
-  const auto results = analysis::read_results(analysis::stored_plan(folder), folder);
+  const auto results = analysis::read_results(analysis::stored_list(folder), folder);
   py::list rows;
   const analysis::Judgement judgement = analysis::judged_claims(results, folder);
   for (const analysis::JudgedStatement& statement : judgement.statements) {
@@ -211,7 +211,7 @@ void add_studies(py::module_& module) {
   module.def(
       "write_tables",
       [](const std::string& folder) {
-        const auto results = analysis::read_results(analysis::stored_plan(folder), folder);
+        const auto results = analysis::read_results(analysis::stored_list(folder), folder);
         analysis::write_tables(analysis::study_tables(results),
                                analysis::judged_claims(results, folder), folder);
       },
@@ -245,7 +245,7 @@ void add_studies(py::module_& module) {
       "tables",
       [](const std::string& folder) {
         return analysis::study_tables(
-            analysis::read_results(analysis::stored_plan(folder), folder));
+            analysis::read_results(analysis::stored_list(folder), folder));
       },
       py::arg("folder"));
 }

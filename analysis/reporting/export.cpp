@@ -78,22 +78,22 @@ const char* status_of(StudyResults::State state) {
 }  // namespace
 
 StudyExport::StudyExport(const std::filesystem::path& folder)
-    : StudyExport(stored_plan(folder), Store(folder, Store::Access::read)) {}
+    : StudyExport(stored_list(folder), Store(folder, Store::Access::read)) {}
 
 StudyExport::StudyExport(const TrialList& list, const Store& store)
-    : metrics_(in_declared_order(store.metric_names(), known_values())),
+    : measures_(in_declared_order(store.measure_names(), known_values())),
       series_(in_declared_order(store.series_names(), known_series())),
-      results_(list, store, metrics_, series_) {}
+      results_(list, store, measures_, series_) {}
 
 std::string StudyExport::csv() const {
   const TrialList& list = results_.list();
   const std::vector<std::string> fate{"replication", "seed", "status", "reason"};
   std::vector<std::string> others{"study_group"};
   others.insert(others.end(), fate.begin(), fate.end());
-  others.insert(others.end(), metrics_.begin(), metrics_.end());
+  others.insert(others.end(), measures_.begin(), measures_.end());
   const std::vector<std::string> factors = all_factor_columns(list, others);
   std::vector<std::string> fields{"study_group"};
-  for (const auto* names : {&factors, &fate, &metrics_}) {
+  for (const auto* names : {&factors, &fate, &measures_}) {
     fields.insert(fields.end(), names->begin(), names->end());
   }
 
@@ -109,8 +109,8 @@ std::string StudyExport::csv() const {
     fields.push_back(std::to_string(list.seed(trial)));
     fields.emplace_back(status_of(results_.state(i)));
     fields.push_back(results_.failure(i));
-    for (const std::string& metric : metrics_) {
-      const std::optional<double> value = results_.stored(metric, i);
+    for (const std::string& measure : measures_) {
+      const std::optional<double> value = results_.stored(measure, i);
       fields.push_back(value ? shortest(*value) : "");
     }
     text += csv_line(fields);

@@ -56,7 +56,7 @@ class GroupWriter {
         grid_(group_),
         replications_(static_cast<std::size_t>(group_.replications())) {}
 
-  void write(const std::vector<std::string>& metrics, const std::vector<std::string>& series) {
+  void write(const std::vector<std::string>& measures, const std::vector<std::string>& series) {
     file_.text(place_, "design", group_.group().design.kind());
     if (!group_.group().scenario.empty()) file_.text(place_, "scenario", group_.group().scenario);
     for (const GroupGrid::Dimension& d : grid_.dimensions()) {
@@ -65,7 +65,7 @@ class GroupWriter {
     group_.sampled() ? write_drawn_factors() : write_levels();
     write_replications();
     write_status();
-    for (const std::string& name : metrics) write_metric(name);
+    for (const std::string& name : measures) write_measure(name);
     write_series(series);
   }
 
@@ -165,7 +165,7 @@ class GroupWriter {
               }));
   }
 
-  void write_metric(const std::string& name) {
+  void write_measure(const std::string& name) {
     const auto known = std::ranges::find(known_values(), name, &Quantity::name);
     const bool is_known = known != known_values().end();
     const auto made =
@@ -246,7 +246,7 @@ class GroupWriter {
   const TrialGroup& group_;
   GroupGrid grid_;
   std::size_t replications_;
-  std::vector<NetcdfOutput::Dimension> dims_;  // of metrics
+  std::vector<NetcdfOutput::Dimension> dims_;  // of measures
   std::string coordinates_;                    // besides those that dimensions have
 };
 
@@ -261,7 +261,7 @@ void StudyExport::write_netcdf(const std::filesystem::path& path) const {
   for (std::size_t g = 0; g < list.groups().size(); ++g) {
     const std::string& name = list.groups()[g].name();
     const auto place = name.empty() ? file.root() : file.group(file.root(), netcdf_name(name));
-    GroupWriter(file, place, results_, g).write(metrics_, series_);
+    GroupWriter(file, place, results_, g).write(measures_, series_);
   }
   file.finish();
 }

@@ -32,7 +32,7 @@ std::string content(const fs::path& file) {
 
 Json read_summary(const fs::path& file) {
   Json summary = Json::parse(content(file), nullptr, false);
-  if (!summary.is_object() || !summary.contains("metrics")) {
+  if (!summary.is_object() || !summary.contains("measures")) {
     throw InputError(file.string() + " is none that shoal run wrote, or is damaged");
   }
   return summary;
@@ -41,7 +41,7 @@ Json read_summary(const fs::path& file) {
 /// Every measure with what it means, in the order of the summary.
 Json measures(const Json& summary) {
   Json rows = Json::array();
-  for (const auto& [name, value] : summary["metrics"].items()) {
+  for (const auto& [name, value] : summary["measures"].items()) {
     const auto& known = known_values();
     const auto found = std::ranges::find(known, name, &Quantity::name);
     rows.push_back({{"name", name},

@@ -71,7 +71,7 @@ Json points_of(const std::string& label, const Estimate& estimate) {
   return shown;
 }
 
-/// Of a table, a chart for each column that knows the trials behind its numbers; where metrics run
+/// Of a table, a chart for each column that knows the trials behind its numbers; where measures run
 /// down the table, one for each of them.
 Json charts(const Table& table) {
   const auto known = [](const Cell& cell) -> const Estimate* {
@@ -88,7 +88,7 @@ Json charts(const Table& table) {
       std::string label, title = column.header;
       for (std::size_t l = 0; l < row.size() && !known(row[l]); ++l) {
         const std::string text = words(row[l]);
-        if (table.columns[l].header == "metric") {
+        if (table.columns[l].header == "measure") {
           title += ", " + text;
         } else if (!text.empty()) {
           label += (label.empty() ? "" : ", ") + text;
@@ -152,7 +152,7 @@ Json pictures(const fs::path& folder) {
 }  // namespace
 
 void write_study_report(const fs::path& folder) {
-  const TrialList list = stored_plan(folder);
+  const TrialList list = stored_list(folder);
   const StudyResults results = read_results(list, folder);
   using enum StudyResults::State;
   const std::string title = list.study().title;

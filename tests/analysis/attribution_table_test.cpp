@@ -43,7 +43,7 @@ name = "shares"
 group = "own"
 minus = "other"
 reference = { a = 20, b = 1 }
-metrics = ["energy_mean_wh"]
+measures = ["energy_mean_wh"]
 )";
 
 std::string study_with(const std::string& attribution) {
@@ -69,7 +69,7 @@ class Attribution : public testing::Test {
         const bool a = labels.front() == "10";
         energy = 100.0 + 10.0 * seed + (a ? 4.0 : 0.0) + (b ? 8.0 : 0.0) + (a && b ? seed : 0.0);
       }
-      trial.metrics = {{"energy_mean_wh", energy}};
+      trial.measures = {{"energy_mean_wh", energy}};
       if (one_fails && planned.group == 1 && planned.replication == 1) trial.failure = "it sank";
       store.write(trial);
     }
@@ -122,7 +122,7 @@ TEST_F(Attribution, WithoutAnotherGroupIsOfTheAnswerItself) {
 name = "shares"
 group = "own"
 reference = { a = 10, b = 5 }
-metrics = ["energy_mean_wh"]
+measures = ["energy_mean_wh"]
 )");
   EXPECT_NEAR(number(shares, 0, 4), -5.0, 1e-12);
   EXPECT_NEAR(number(shares, 1, 4), -9.0, 1e-12);
@@ -137,7 +137,7 @@ TEST_F(Attribution, LeavesOutASeedWithAFailedTrial) {
 
 TEST_F(Attribution, RefusesWhatIsNoFullFactorial) {
   const auto with = [](const std::string& line) {
-    return "[[attribution]]\nname = \"shares\"\nmetrics = [\"energy_mean_wh\"]\n" + line;
+    return "[[attribution]]\nname = \"shares\"\nmeasures = [\"energy_mean_wh\"]\n" + line;
   };
   const auto expect_says = [&](const std::string& line, const std::string& what) {
     const std::string said = complaint(with(line));

@@ -18,7 +18,7 @@
 /// Studies whose trials "gave" chosen numbers, and claims on them.
 namespace shoal::analysis::chosen_trials {
 
-using Metrics = std::vector<std::pair<std::string, std::optional<double>>>;
+using Measures = std::vector<std::pair<std::string, std::optional<double>>>;
 namespace fs = std::filesystem;
 
 /// Where a trial stands: `label("behaviour")`, and its replication from 0.
@@ -30,7 +30,7 @@ struct Place {
     return labels[static_cast<std::size_t>(std::ranges::find(names, name) - names.begin())];
   }
 };
-using Gave = std::function<Metrics(const Place&)>;
+using Gave = std::function<Measures(const Place&)>;
 
 inline const char* const factors_of_a_group = R"(
 [[group.factor]]
@@ -68,7 +68,7 @@ class ChosenTrials : public testing::Test {
   }
   void TearDown() override { fs::remove_all(folder_.parent_path()); }
 
-  /// The claims of a file on a study whose trials gave these metrics; a trial without any failed.
+  /// The claims of a file on a study whose trials gave these measures; a trial without any failed.
   Judgement judged(const std::string& claims, const Gave& gave, int replications = 8,
                    const std::vector<scenarios::Series>& series = {}) {
     write_whole_file(folder_ / "claims.toml", claims);
@@ -83,9 +83,9 @@ class ChosenTrials : public testing::Test {
         StoredTrial trial;
         trial.key = group.key(planned.cell, planned.replication);
         trial.program = "test";
-        trial.metrics = gave(
+        trial.measures = gave(
             {group.name(), group.columns(), {labels.begin(), labels.end()}, planned.replication});
-        if (trial.metrics.empty()) trial.failure = "it sank";
+        if (trial.measures.empty()) trial.failure = "it sank";
         trial.series = series;
         store.write(trial);
       }
@@ -97,11 +97,11 @@ class ChosenTrials : public testing::Test {
   ClaimResult judged_one(const std::string& test, const std::function<double(const Place&)>& energy,
                          const std::string& more = "", int replications = 8) {
     const Judgement judgement = judged(
-        "[[claim]]\nsays = \"so\"\nmetric = \"energy_mean_wh\"\ngroups = [\"calm\"]\n" +
+        "[[claim]]\nsays = \"so\"\nmeasure = \"energy_mean_wh\"\ngroups = [\"calm\"]\n" +
             (more.empty() ? std::string("where = { settings = \"text\", period = 10 }") : more) +
             "\ntest = " + test,
         [&](const Place& place) {
-          return Metrics{{"energy_mean_wh", energy(place)}};
+          return Measures{{"energy_mean_wh", energy(place)}};
         },
         replications);
     return judgement.statements.front().parts.front().columns.front()->result;

@@ -133,11 +133,11 @@ TEST_F(ClaimKinds, OnBoundsAreOnTheMeanOrOnEachTrial) {
 
 TEST_F(ClaimKinds, OnEachTrialNeedAllOfThem) {
   const std::string claim =
-      "[[claim]]\nsays = \"so\"\ngroups = [\"calm\"]\nmetric = \"energy_mean_wh\"\n"
+      "[[claim]]\nsays = \"so\"\ngroups = [\"calm\"]\nmeasure = \"energy_mean_wh\"\n"
       "where = { settings = \"text\", period = 10, behaviour = \"rigid_registration\" }\n"
       "test = { kind = \"each_between\", each_between.at_most = 11 }";
   const Judgement judgement = judged(claim, [](const Place& p) {
-    return p.k == 3 ? Metrics{} : Metrics{{"energy_mean_wh", 10.0}};
+    return p.k == 3 ? Measures{} : Measures{{"energy_mean_wh", 10.0}};
   });
   const JudgedClaim& part = judgement.statements[0].parts[0];
   EXPECT_EQ(part.verdict(0), Verdict::undecided);
@@ -274,12 +274,12 @@ TEST_F(ClaimKinds, CompareGroupsSeedBySeed) {
     return (p.group == "calm" ? 8.0 : 10.0) + noise_of(p.k + (p.group == "calm"));
   };
   const Judgement judgement = judged(
-      "[[claim]]\nsays = \"so\"\ngroups = [\"calm\", \"rough\"]\nmetric = \"energy_mean_wh\"\n"
+      "[[claim]]\nsays = \"so\"\ngroups = [\"calm\", \"rough\"]\nmeasure = \"energy_mean_wh\"\n"
       "where = { settings = \"text\", period = 10 }\n"
       "test = { kind = \"lower\", lower = { cells = { group = \"calm\" }, than = { group = "
       "\"rough\" }, smallest_effect = 0.5 } }",
       [&](const Place& p) {
-        return Metrics{{"energy_mean_wh", energy(p)}};
+        return Measures{{"energy_mean_wh", energy(p)}};
       });
   const ClaimResult& result = judgement.statements[0].parts[0].columns[0]->result;
   ASSERT_EQ(result.contrasts.size(), 2u) << "one a behaviour";
@@ -298,7 +298,7 @@ TEST_F(ClaimKinds, OnSeriesMayBeOnAChangeAndOnADifferenceOfTwo) {
             "\nwhere = { settings = \"text\", period = 10, behaviour = \"rigid_registration\" }\n"
             "test = { kind = \"between\", between.at_least = 0 }",
         [](const Place&) {
-          return Metrics{{"energy_mean_wh", 0.0}};
+          return Measures{{"energy_mean_wh", 0.0}};
         },
         8, series);
     return *judgement.statements[0].parts[0].columns[0]->result.contrasts[0].estimate;
@@ -310,7 +310,7 @@ TEST_F(ClaimKinds, OnSeriesMayBeOnAChangeAndOnADifferenceOfTwo) {
 
 TEST_F(ClaimKinds, OnTimesCountTrialsThatNeverGotThereWithTheirBound) {
   const Judgement judgement = judged(
-      "[[claim]]\nsays = \"so\"\ngroups = [\"calm\"]\nmetric = \"time_to_quality_20m_s\"\n"
+      "[[claim]]\nsays = \"so\"\ngroups = [\"calm\"]\nmeasure = \"time_to_quality_20m_s\"\n"
       "where = { settings = \"text\", period = 10 }\ntest = " +
           lower("smallest_effect = 60"),
       [](const Place& p) {
@@ -318,7 +318,7 @@ TEST_F(ClaimKinds, OnTimesCountTrialsThatNeverGotThereWithTheirBound) {
             is_rigid(p) && p.k < 2
                 ? std::nullopt
                 : std::optional(600.0 + p.k + (is_rigid(p) ? 0.0 : noise_of(p.k)));
-        return Metrics{{"time_to_quality_20m_s", reached}, {"quality_watched_s", 3600.0}};
+        return Measures{{"time_to_quality_20m_s", reached}, {"quality_watched_s", 3600.0}};
       });
   const JudgedClaim& part = judgement.statements[0].parts[0];
   const Contrast& contrast = part.columns[0]->result.contrasts[0];

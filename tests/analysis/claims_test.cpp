@@ -16,7 +16,7 @@ class Claims : public ChosenTrials {};
 
 TEST_F(Claims, HaveOneVerdictAStatementAndColumnCorrectedOverAll) {
   const std::string in_calm =
-      "groups = [\"calm\"]\nwhere = { period = 10 }\nmetric = \"energy_mean_wh\"\n";
+      "groups = [\"calm\"]\nwhere = { period = 10 }\nmeasure = \"energy_mean_wh\"\n";
   const auto file = [&](const std::string& correction) {
     return "correction = \"" + correction +
            "\"\nside_by_side = \"settings\"\n"
@@ -32,7 +32,7 @@ TEST_F(Claims, HaveOneVerdictAStatementAndColumnCorrectedOverAll) {
   // Under `text` rigid spends less than pairwise, under `program` more.
   const Gave gave = [](const Place& p) {
     const double rigid_wh = p.label("settings") == "text" ? 8.0 : 12.0;
-    return Metrics{
+    return Measures{
         {"energy_mean_wh", (is_rigid(p) ? rigid_wh : 10.0) + noise_of(p.k + is_rigid(p))}};
   };
   const Judgement judgement = judged(file("holm"), gave);
@@ -75,13 +75,13 @@ TEST_F(Claims, ThatTheCorrectionLeavesUndecidedSaySo) {
   std::string file;
   for (int i = 0; i < 30; ++i) {
     file +=
-        "[[claim]]\nsays = \"so\"\ngroups = [\"calm\"]\nmetric = \"energy_mean_wh\"\nwhere = { "
+        "[[claim]]\nsays = \"so\"\ngroups = [\"calm\"]\nmeasure = \"energy_mean_wh\"\nwhere = { "
         "settings = "
         "\"text\", period = 10, behaviour = \"rigid_registration\" }\n"
         "test = { kind = \"between\", between.at_most = 10.35 }\n";
   }
   const Judgement judgement = judged(file, [](const Place& p) {
-    return Metrics{{"energy_mean_wh", 10.0 + noise_of(p.k)}};
+    return Measures{{"energy_mean_wh", 10.0 + noise_of(p.k)}};
   });
   const JudgedColumn& column = *judgement.statements[0].parts[0].columns[0];
   EXPECT_LT(column.result.p_holds, 0.05);
@@ -96,14 +96,14 @@ TEST_F(Claims, ThatTheCorrectionLeavesUndecidedSaySo) {
 TEST_F(Claims, NameACauseOnlyIfItsOwnTestHolds) {
   const auto lines = [&](const std::string& cause) {
     const Judgement judgement = judged(
-        "[[claim]]\nsays = \"so\"\ngroups = [\"calm\"]\nmetric = \"energy_mean_wh\"\n"
+        "[[claim]]\nsays = \"so\"\ngroups = [\"calm\"]\nmeasure = \"energy_mean_wh\"\n"
         "where = { settings = \"text\", period = 10 }\ntest = " +
             lower("smallest_effect = 1") +
-            "\n[claim.cause]\nsays = \"it fragments\"\nmetric = \"fragments\"\n"
+            "\n[claim.cause]\nsays = \"it fragments\"\nmeasure = \"fragments\"\n"
             "where = { settings = \"text\", period = 10, behaviour = \"rigid_registration\" }\n" +
             cause,
         [](const Place& p) {
-          return Metrics{
+          return Measures{
               {"energy_mean_wh", (is_rigid(p) ? 12.0 : 10.0) + noise_of(p.k + is_rigid(p))},
               {"fragments", 3.0 + noise_of(p.k)}};
         });
@@ -130,25 +130,28 @@ TEST_F(Claims, ThatAreNotWrittenRightAreRefusedByLine) {
     });
   };
   EXPECT_EQ(
-      complaint("metric = \"fragments\"\ncause = \"the sea\"\ntest = { kind = \"between\", "
+      complaint("measure = \"fragments\"\ncause = \"the sea\"\ntest = { kind = \"between\", "
                 "between.at_most = 1 }"),
       "claims.toml:4: a cause is not a text but a statement with a test of its own: write "
-      "[claim.cause] with says, metric and test (and study, if other trials show it), or leave "
+      "[claim.cause] with says, measure and test (and study, if other trials show it), or leave "
       "it out");
-  EXPECT_NE(complaint("metric = \"fragments\"\ntest = " + lower("smallest_effect = 0"))
+  EXPECT_EQ(complaint("metric = \"fragments\"\n"),
+            "claims.toml:3: metric is now measure; write that");
+  EXPECT_NE(complaint("measure = \"fragments\"\ntest = " + lower("smallest_effect = 0"))
                 .find("needs smallest_effect or smallest_effect_percent, above 0"),
             std::string::npos);
-  EXPECT_NE(complaint("metric = \"fragments\"\ntest = " +
+  EXPECT_NE(complaint("measure = \"fragments\"\ntest = " +
                       lower("smallest_effect = 1, smallest_effect_percent = 1"))
                 .find("not both"),
             std::string::npos);
   EXPECT_NE(
       complaint(
-          "metric = \"fragments\"\nat_s = 3\ntest = { kind = \"between\", between.at_most = 1 }")
+          "measure = \"fragments\"\nat_s = 3\ntest = { kind = \"between\", between.at_most = 1 }")
           .find("at_s and since_s belong to a series"),
       std::string::npos);
   const std::string of_3 =
-      "statement = 3\nmetric = \"fragments\"\ntest = { kind = \"between\", between.at_most = 1 }\n";
+      "statement = 3\nmeasure = \"fragments\"\ntest = { kind = \"between\", between.at_most = 1 "
+      "}\n";
   EXPECT_EQ(complaint(of_3), "");
   EXPECT_NE(
       complaint(of_3 + "[[claim]]\nsays = \"more\"\n" + of_3).find("statement 3 has several parts"),
@@ -162,9 +165,9 @@ TEST_F(Claims, OnWhatTheStudyLacksAreRefused) {
   const auto complaint = [&](const std::string& more) {
     return complaint_of([&] {
       judged(
-          "side_by_side = \"settings\"\n[[claim]]\nsays = \"so\"\nmetric = \"energy_mean_wh\"\n" +
+          "side_by_side = \"settings\"\n[[claim]]\nsays = \"so\"\nmeasure = \"energy_mean_wh\"\n" +
               more + "\ntest = " + lower("smallest_effect = 1"),
-          [](const Place&) { return Metrics{}; });
+          [](const Place&) { return Measures{}; });
     });
   };
   const std::string file = (folder_ / "claims.toml").string();

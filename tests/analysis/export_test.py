@@ -103,14 +103,14 @@ class Export(StudyDesk):
                 "energy_mean_wh", "quality_final_m", "time_to_quality_20m_s"]], stored[key])
             self.assertEqual((t["study_group"], t["status"], t["reason"]), ("", "done", ""))
 
-    def test_every_metric_is_there_and_names_its_unit(self):
+    def test_every_measure_is_there_and_names_its_unit(self):
         self.sweep()
         self.export("out", "--out", "elsewhere")
         run = self.run_trial("construction_square", "--set", "trial.duration_s=60", out="one")
         header = list(self.trials("elsewhere")[0])
         self.assertEqual(header[:7], ["study_group", "behaviour", "delta_theta_deg", "replication",
                                       "seed", "status", "reason"])
-        self.assertEqual(header[7:], list(run["metrics"]))
+        self.assertEqual(header[7:], list(run["measures"]))
         self.assertNotIn("out/trials.csv", self.files())
 
     def test_groups_missing_and_failed_trials_are_told_apart(self):
@@ -191,7 +191,7 @@ class Export(StudyDesk):
         self.assertTrue(nowhere.energy_mean_wh.isnull().all())
         self.assertTrue((nowhere.status == 0).all())
 
-    def test_every_metric_has_its_unit_and_says_what_it_is(self):
+    def test_every_measure_has_its_unit_and_says_what_it_is(self):
         self.sweep()
         self.export("out")
         study = self.open()

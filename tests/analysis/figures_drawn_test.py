@@ -132,9 +132,9 @@ class FiguresDrawn(desk.Desk):
         for own, says in ((rows, "has 256 curves"), (rows[:256], "has 256 rows")):
             table = StudyTable("much", "", own)
             with style.page(1), self.assertRaisesRegex(panels.TooMuch, says):
-                of_study.figure_of(table, {"metrics": ["energy_mean_wh"]})
+                of_study.figure_of(table, {"measures": ["energy_mean_wh"]})
             self.write("study/study.toml",
-                       '[[table]]\nname = "much"\nmetrics = ["energy_mean_wh"]\n')
+                       '[[table]]\nname = "much"\nmeasures = ["energy_mean_wh"]\n')
             self.write("study/tables/much.csv", "\n".join(",".join(row) for row in [
                 list(table.rows[0]), *(row.values() for row in table.rows)]) + "\n")
             done = subprocess.run([sys.executable, "-B", TOP / "reporting" / "figures", "study"], cwd=self.desk,
@@ -219,7 +219,7 @@ def form_of(table, request):
     """Figures of two tables with the same form differ in their numbers and the words of an axis."""
     named = ("of", "columns", "against", "statistic")
     return (tuple(table.labels), len(table.numbers), len(table.rows),
-            len(request.get("metrics", [])), *(str(request.get(name)) for name in named))
+            len(request.get("measures", [])), *(str(request.get(name)) for name in named))
 
 
 def unsaid_difference(request):

@@ -17,7 +17,7 @@ COMPARISON = """
 name = "difference"
 factor = "delta_theta_deg"
 reference = "10"
-metrics = ["energy_mean_wh"]
+measures = ["energy_mean_wh"]
 """
 
 TIME = {"speeds", "energy", "energy_by_distance", "efficiency", "thrust"}
@@ -118,7 +118,7 @@ class Figures(Desk):
                                            ("a", "10", "3", "2", "4"), ("b", "5", "8", "8", "8"))]
         table = StudyTable("t", "", rows)
         self.assertEqual((table.labels, table.numbers), (["group", "period_s"], ["square_energy_mean_wh"]))
-        axes, = of_study.figure_of(table, {"metrics": ["energy_mean_wh"]}).axes
+        axes, = of_study.figure_of(table, {"measures": ["energy_mean_wh"]}).axes
         self.assertEqual((axes.get_xlabel(), axes.get_ylabel()), ("Period (s)", "Energy mean (Wh)"))
         curve, other = axes.lines
         self.assertEqual((curve.get_label(), other.get_label()), ("a, square", "b, square"))
@@ -132,7 +132,7 @@ class Figures(Desk):
         from long_form import numbers_of
         from stored_study import StudyTable
 
-        rows = [{"metric": "energy mean (Wh)", "difference_label": "30", "difference": "2",
+        rows = [{"measure": "energy mean (Wh)", "difference_label": "30", "difference": "2",
                  "difference_plus_minus": "1", "difference_n": "3"}]
         number, = numbers_of(StudyTable("t", "", rows), {})
         self.assertEqual((number.levels, number.value), ({"difference": "30"}, 2.0))
@@ -150,7 +150,7 @@ key = "guidance.drift.drifting_radius_m"
 range = [15, 40]
 [[sensitivity]]
 name = "indices"
-metrics = ["energy_mean_wh"]
+measures = ["energy_mean_wh"]
 """)
         done = self.shoal("sweep", "study.toml", "--out", "out")
         self.assertEqual(done.returncode, 0, done.stderr)

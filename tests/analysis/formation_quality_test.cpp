@@ -64,7 +64,7 @@ double quality(const formations::Plan& plan, Alignment alignment, const Points& 
   return FormationQuality(plan, options).of(positions).quality_m;
 }
 
-// The metric by the two recipes of the thesis once more, by a plain loop over all turns, the
+// The measure by the two recipes of the thesis once more, by a plain loop over all turns, the
 // Hungarian method and complex numbers; nothing is shared with the solvers.
 
 std::vector<Complex> complex(const Points& points) {
@@ -258,21 +258,21 @@ TEST(FormationQuality, IsNotAboveThatOfTheOtherRecipes) {
 
 TEST(FormationQuality, IsProvenForAFormedSwarm) {
   const Points off = scattered(slots_of(lattice().plan()), 8.0, 1);
-  FormationQuality metric(lattice().padded(1), {});
-  const FormationQuality::Value value = metric.of(off);
+  FormationQuality measure(lattice().padded(1), {});
+  const FormationQuality::Value value = measure.of(off);
   ASSERT_TRUE(value.lower_bound_m);
   EXPECT_LT(value.quality_m - *value.lower_bound_m, tolerance_m + 1e-12);
   EXPECT_GT(*value.lower_bound_m, 7.0);
-  EXPECT_EQ(metric.slot_of_position().size(), off.size());
+  EXPECT_EQ(measure.slot_of_position().size(), off.size());
 }
 
 TEST(FormationQuality, FollowsASwarmThatDriftsAndLosesVehicles) {
-  FormationQuality metric(lattice().padded(1), {});
+  FormationQuality measure(lattice().padded(1), {});
   Points swarm = scattered(slots_of(lattice().plan()), 8.0, 3);
   for (int k = 0; k < 10; ++k) {
     swarm = moved(scattered(swarm, 1.0, static_cast<unsigned>(k)), 2.0, {400.0, -90.0});
     if (k % 2) swarm.erase(swarm.begin());
-    EXPECT_NEAR(metric.of(swarm).quality_m, quality(lattice().padded(1), Alignment::rigid, swarm),
+    EXPECT_NEAR(measure.of(swarm).quality_m, quality(lattice().padded(1), Alignment::rigid, swarm),
                 tolerance_m);
   }
 }

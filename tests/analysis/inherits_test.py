@@ -22,7 +22,7 @@ values = ["text", "program"]
 [[table]]
 name = "energy"
 rows = ["settings"]
-metrics = ["energy_mean_wh"]
+measures = ["energy_mean_wh"]
 """
 
 
@@ -49,7 +49,7 @@ class Inherits(StudyDesk):
         self.assertNotIn("inherits", self.whole("first"))
         self.assertIn('update = "tick"', self.whole("first"))
         again = self.run_trial("first/scenario.toml", out="again")
-        self.assertEqual(first["metrics"], again["metrics"])
+        self.assertEqual(first["measures"], again["measures"])
         self.assertEqual(self.whole("first"), self.whole("again"))
 
     def test_set_replaces_what_the_file_inherits(self):
@@ -105,7 +105,7 @@ class Inherits(StudyDesk):
         for name, cell in swept.items():
             for seed, energy in zip([1, 2], cell):
                 alone = self.run_trial("own.toml", "--set", f"inherits={name}", "--seed", seed)
-                self.assertAlmostEqual(float(energy), alone["metrics"]["energy_mean_wh"], 9)
+                self.assertAlmostEqual(float(energy), alone["measures"]["energy_mean_wh"], 9)
 
     def test_a_stored_study_finds_the_files_it_inherits_from_anywhere(self):
         self.write("lab/mine.toml", 'inherits = "text"\n[ping]\nperiod_s = 11\n')
@@ -134,7 +134,7 @@ values = ["a.toml", "b.toml"]
 [[table]]
 name = "energy"
 rows = ["settings"]
-metrics = ["energy_mean_wh"]
+measures = ["energy_mean_wh"]
 """)
         self.assertIn("2 of 2 trials are stored", self.sweep(study="lab/study.toml"))
         self.assertEqual(set(self.cells()), {"a.toml", "b.toml"})

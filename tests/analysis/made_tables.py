@@ -51,7 +51,7 @@ def fill(table, request, value=steady):
             bounds = {"": mean, "_plus_minus": width, "_sd": width, "_low": low, "_high": high}
             for ending in ("", *bounds_of(request, row, column)):
                 row[column + ending] = "" if mean is None else repr(bounds[ending])
-            if mean is not None and request.get("metrics") and "factors" in request:
+            if mean is not None and request.get("measures") and "factors" in request:
                 row[column + "_each"] = " ".join(repr(mean + share * width)
                                                  for share in (-0.8, 0.1, 0.6))
 

@@ -112,7 +112,7 @@ class Merge(StudyDesk):
         before = self.content("whole")
         which = "WHERE trial_key = '|behaviour=rigid_registration|delta_theta_deg=-|1'"
         for what, changed, said in [
-                ("a metric", "energy_mean_wh = energy_mean_wh + 1e-9", "energy_mean_wh is 1.80"),
+                ("a measure", "energy_mean_wh = energy_mean_wh + 1e-9", "energy_mean_wh is 1.80"),
                 ("null", "energy_mean_wh = NULL", "and null in the second"),
                 ("status", "status = 'failed', reason = 'it sank'", "it is done in the first, and "
                  "failed (it sank) in the second")]:
@@ -159,7 +159,7 @@ class Merge(StudyDesk):
         self.assert_refused(["new", "one", "two"], 2, [
             "one and two hold different studies", "study.toml", '"replications = 3"',
             '"replications = 4"'])
-        claim = '[[claim]]\nsays = "so"\nmetric = "fragments"\ntest.kind = "between"\n' \
+        claim = '[[claim]]\nsays = "so"\nmeasure = "fragments"\ntest.kind = "between"\n' \
                 'test.between = { at_most = 1 }\n'
         self.write("claims.toml", claim)
         self.write("study.toml", 'claims = "claims.toml"\n' + SHORT)

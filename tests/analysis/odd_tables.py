@@ -29,21 +29,21 @@ def crossed(*factors):
 
 
 def cells(rows, columns, asked):
-    """Rows without numbers, of a request that names its metrics; fill() gives them some."""
-    metrics = asked.get("metrics") or asked["series"]
-    names = ["_".join([*levels.values(), metric])
-             for levels in crossed(*columns) for metric in metrics]
+    """Rows without numbers, of a request that names its measures; fill() gives them some."""
+    measures = asked.get("measures") or asked["series"]
+    names = ["_".join([*levels.values(), measure])
+             for levels in crossed(*columns) for measure in measures]
     numbers = {name + end: "2" for name in names for end in ("", "_n")}
     return [{**row, **numbers} for row in rows], asked
 
 
 def indices(rows, names):
-    return [{**row, **{name: "" for name in names}} for row in rows], {"name": "odd", "metrics": [
+    return [{**row, **{name: "" for name in names}} for row in rows], {"name": "odd", "measures": [
         "energy_mean_wh", "quality_settled_m"]}
 
 
-def of_metrics(rows):
-    return [{"metric": heading, **row} for heading in HEADINGS for row in rows]
+def of_measures(rows):
+    return [{"measure": heading, **row} for heading in HEADINGS for row in rows]
 
 
 def forms():
@@ -52,39 +52,39 @@ def forms():
     changes = [{"factor": "own_weight", "from": "1", "to": "0.1"},
                {"factor": "planned", "from": "always", "to": "per ping"},
                {"factor": "all", "from": "", "to": ""}]
-    metrics = ["energy_mean_wh", "quality_settled_m"]
+    measures = ["energy_mean_wh", "quality_settled_m"]
     return {
         "curves": cells(crossed("behaviour", "delta_theta_deg_deg"), ("settings",),
-                        request(columns=["settings"], metrics=metrics)),
+                        request(columns=["settings"], measures=measures)),
         "24 curves": cells(crossed("group", "behaviour", "settings"), ("ping_period",),
-                           request(columns=["ping_period"], metrics=metrics[:1])),
+                           request(columns=["ping_period"], measures=measures[:1])),
         "curves of wide steps": cells(crossed("behaviour"), ("weight",),
-                                      request(columns=["weight"], metrics=metrics[:1])),
+                                      request(columns=["weight"], measures=measures[:1])),
         "series": cells([{"time_s": "0"}], ("behaviour", "settings"),
                         request(columns=["behaviour", "settings"], series=["quality"], every=300)),
         "rows": cells(crossed("group", "a_factor_with_a_long_name"), ("behaviour",),
-                      request(columns=["behaviour"], metrics=[*metrics, "nees_per_state"],
+                      request(columns=["behaviour"], measures=[*measures, "nees_per_state"],
                               statistic="mean [min, max]")),
-        "one row": cells(crossed("settings")[:1], (), request(metrics=metrics)),
+        "one row": cells(crossed("settings")[:1], (), request(measures=measures)),
         "one trial": cells([{"time_s": "0"}], (), request(series=["quality"], every=1)),
         "differences of a number": (
-            [{**row, "metric": m, "delta_theta_deg": step, "difference": "", "difference_n": "2"}
+            [{**row, "measure": m, "delta_theta_deg": step, "difference": "", "difference_n": "2"}
              for m in HEADINGS for row in crossed("group")
              for step in LEVELS["delta_theta_deg_deg"] if step != "10"],
-            request("comparison", factor="delta_theta_deg", reference="10", metrics=metrics)),
+            request("comparison", factor="delta_theta_deg", reference="10", measures=measures)),
         "differences of names": (
-            [{**row, "metric": m, "behaviour": "rigid_registration", "difference": "",
+            [{**row, "measure": m, "behaviour": "rigid_registration", "difference": "",
               "difference_n": "2"} for m in HEADINGS for row in crossed("group", "settings")],
             request("comparison", factor="behaviour", reference="pairwise_referencing",
-                    metrics=metrics)),
-        "indices": indices(of_metrics(sampled), ("first_order", "first_order_low",
+                    measures=measures)),
+        "indices": indices(of_measures(sampled), ("first_order", "first_order_low",
                                                  "first_order_high", "total")),
-        "effects": indices(of_metrics(sampled), ("mu", "mu_star", "sigma")),
-        "pairs": indices(of_metrics([{"factor": a["factor"], "and_factor": b["factor"]} for a, b
+        "effects": indices(of_measures(sampled), ("mu", "mu_star", "sigma")),
+        "pairs": indices(of_measures([{"factor": a["factor"], "and_factor": b["factor"]} for a, b
                                      in itertools.combinations(sampled, 2)]), ("second_order",)),
-        "convergence": indices(of_metrics([{**row, "base_samples": str(2 ** k)} for row in sampled
+        "convergence": indices(of_measures([{**row, "base_samples": str(2 ** k)} for row in sampled
                                            for k in range(3, 8)]), ("first_order", "total")),
-        "changes": indices(of_metrics(changes), ("share", "share_low", "share_high", "alone",
+        "changes": indices(of_measures(changes), ("share", "share_low", "share_high", "alone",
                                                  "last")),
     }
 

@@ -125,9 +125,9 @@ class Help(Desk):
 
     def test_what_list_measures_shows_is_what_a_run_says(self):
         self.write("brief.toml", "trial.duration_s = 60\n")
-        metrics = self.run_trial("brief.toml")["metrics"]
+        measures = self.run_trial("brief.toml")["measures"]
         listed = self.say("list", "measures")
-        for name in metrics:
+        for name in measures:
             self.assertIn(f"      {name} ", listed)
 
     def test_a_described_scenario_is_a_scenario(self):

@@ -23,7 +23,7 @@ ELSEWHERE = """arrived_vehicles stranded_share arrival_first_s clearance_min_m c
 control_effort_m_s outside_envelope_share position_error_rms_m nees_mean fault_share""".split()
 BESIDE = ["scenario", "behaviour", "seed", "program", "vehicles", "duration_s", "mission_s",
           "stopped_by", "wall_s",
-          "vehicle_seconds_per_wall_s", "metrics"]
+          "vehicle_seconds_per_wall_s", "measures"]
 BEHAVIOURS = ["assignment_registration", "attraction_repulsion", "pairwise_referencing",
               "rigid_registration"]
 
@@ -56,26 +56,26 @@ class Trials(Desk):
         self.assertEqual((summary["scenario"], summary["behaviour"], summary["vehicles"]),
                          ("redsea_square", "rigid_registration", 20))
         self.assertEqual((summary["seed"], summary["duration_s"]), (1, 300))
-        metrics = summary["metrics"]
+        measures = summary["measures"]
         for name in ALWAYS:
-            self.assertTrue(np.isfinite(metrics[name]), name)
+            self.assertTrue(np.isfinite(measures[name]), name)
         for name in ELSEWHERE:
-            self.assertIsNone(metrics[name], name)
-        self.assertLess(metrics["energy_min_wh"], metrics["energy_mean_wh"])
-        self.assertLess(metrics["energy_mean_wh"], metrics["energy_max_wh"])
-        self.assertGreater(metrics["centroid_path_m"], metrics["centroid_displacement_m"])
+            self.assertIsNone(measures[name], name)
+        self.assertLess(measures["energy_min_wh"], measures["energy_mean_wh"])
+        self.assertLess(measures["energy_mean_wh"], measures["energy_max_wh"])
+        self.assertGreater(measures["centroid_path_m"], measures["centroid_displacement_m"])
 
     def test_recorded_problems_leave_the_numbers_alone(self):
         short = ["construction_square", "--set", "trial.duration_s=300"]
-        plain = self.run_trial(*short)["metrics"]
+        plain = self.run_trial(*short)["measures"]
         for threads in ("1", "3"):
             file = f"problems{threads}.jsonl"
             done = self.shoal("run", *short, "--threads", threads, "--out", "recorded",
                               "--record-problems", file)
             self.assertEqual((done.returncode, done.stderr), (0, ""))
             self.assertIn(f"written: {file}, ", done.stdout)
-            metrics = json.loads((self.desk / "recorded/summary.json").read_text())["metrics"]
-            self.assertEqual(metrics, plain)
+            measures = json.loads((self.desk / "recorded/summary.json").read_text())["measures"]
+            self.assertEqual(measures, plain)
         one, many = (self.desk / f"problems{n}.jsonl" for n in (1, 3))
         self.assertEqual(one.read_bytes(), many.read_bytes())
 
@@ -146,12 +146,12 @@ class Trials(Desk):
                                "--set", "behaviour.kind=pairwise_referencing")
         self.assertEqual(first["seed"], 5)
         again = self.run_trial("out/scenario.toml", out="again")
-        self.assertEqual(again["metrics"], first["metrics"])
+        self.assertEqual(again["measures"], first["measures"])
         self.assertEqual((self.desk / "again/scenario.toml").read_text(),
                          (self.desk / "out/scenario.toml").read_text())
 
     def test_another_seed_gives_other_numbers(self):
-        one, two = (self.run_trial("ok.toml", "--seed", seed)["metrics"] for seed in (1, 2))
+        one, two = (self.run_trial("ok.toml", "--seed", seed)["measures"] for seed in (1, 2))
         self.assertNotEqual(one["min_separation_m"], two["min_separation_m"])
 
     def test_the_numbers_depend_neither_on_threads_nor_on_recording(self):
@@ -160,9 +160,9 @@ class Trials(Desk):
         one = self.run_trial(*many)
         four = self.run_trial(*many, "--threads", "4", out="four")
         silent = self.run_trial(*many, "--set", "trial.record_every_s=0", out="silent")
-        self.assertEqual(one["metrics"], four["metrics"])
-        self.assertEqual(one["metrics"], silent["metrics"])
-        self.assertIsNone(one["metrics"]["quality_final_m"])
+        self.assertEqual(one["measures"], four["measures"])
+        self.assertEqual(one["measures"], silent["measures"])
+        self.assertIsNone(one["measures"]["quality_final_m"])
         self.assertFalse((self.desk / "silent/run.nc").exists())
         with xarray.open_dataset(self.desk / "out/run.nc") as a, \
                 xarray.open_dataset(self.desk / "four/run.nc") as b:
@@ -174,7 +174,7 @@ class Trials(Desk):
             summary = self.run_trial("redsea_square", "--set", "trial.duration_s=240",
                                      "--set", f"behaviour.kind={kind}")
             self.assertEqual(summary["behaviour"], kind)
-            paths.add(summary["metrics"]["energy_mean_wh"])
+            paths.add(summary["measures"]["energy_mean_wh"])
         self.assertEqual(len(paths), len(BEHAVIOURS))
 
     def test_paths_are_relative_to_the_scenario_and_those_of_set_to_the_user(self):

@@ -48,7 +48,7 @@ class Trials(Desk):
                                  *(word for key, value in sets.items()
                                    for word in ("--set", f"{key}={value}")))
         dataset, measures = shoal.run("redsea_square", sets, seed=7)
-        self.assertEqual(measures, summary["metrics"])
+        self.assertEqual(measures, summary["measures"])
         vehicles, series = (xarray.load_dataset(self.desk / "out" / name, decode_times=False)
                             for name in ("run.nc", "series.nc"))
         self.assertTrue(dataset.identical(vehicles.reset_coords(["x", "y", "depth"]).merge(series)))

@@ -83,10 +83,10 @@ class Record(Desk):
         left = self.run_nc["x"].notnull().sum("vehicle").values
         self.assertEqual(sorted(set(left)), [18, 19, 20])
         self.assertTrue((np.diff(left) <= 0).all())
-        self.assertEqual(self.summary["metrics"]["lost_vehicles"], 2)
+        self.assertEqual(self.summary["measures"]["lost_vehicles"], 2)
 
     def test_it_agrees_with_the_summary(self):
-        metrics = self.summary["metrics"]
+        measures = self.summary["measures"]
         end = self.run_nc.isel(time=-1)
         left = end.where(end["x"].notnull(), drop=True)
         total = left["energy_propulsion"] + left["energy_hotel"] + left["energy_comms"]
@@ -96,12 +96,12 @@ class Record(Desk):
                             (left["thrust_time"].mean() / 600, "thrust_time_ratio_mean"),
                             (left["thrust_distance"].mean() / left["distance"].mean(),
                              "thrust_distance_ratio_mean")]:
-            self.assertAlmostEqual(float(found) / metrics[name], 1.0, 5, name)
-        self.assertGreater(metrics["energy_propulsion_mean_wh"], 0.0)
+            self.assertAlmostEqual(float(found) / measures[name], 1.0, 5, name)
+        self.assertGreater(measures["energy_propulsion_mean_wh"], 0.0)
 
         quality = self.series["quality"].values
-        self.assertEqual(quality[-1], metrics["quality_final_m"])
-        self.assertAlmostEqual(quality[8:].mean(), metrics["quality_settled_m"], 9)
+        self.assertEqual(quality[-1], measures["quality_final_m"])
+        self.assertAlmostEqual(quality[8:].mean(), measures["quality_settled_m"], 9)
 
     def test_motion_and_energy_are_possible(self):
         kept = self.run_nc.where(self.run_nc["x"].isel(time=-1, drop=True).notnull(), drop=True)

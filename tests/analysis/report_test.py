@@ -74,7 +74,7 @@ class Report(Desk):
         summary = self.run_trial("ok.toml")
         data = page_data(self.page())
         self.assertEqual({row["name"]: row["value"] for row in data["measures"]},
-                         summary["metrics"])
+                         summary["measures"])
         self.assertTrue(all(row["meaning"] for row in data["measures"]))
         self.assertEqual(data["scenario"], (self.desk / "out" / "scenario.toml").read_text())
 

@@ -31,7 +31,7 @@ range = [0, 1]
 [[sensitivity]]
 name = "indices"
 caption = "Indices"
-metrics = ["energy_mean_wh", "quality_settled_m"]
+measures = ["energy_mean_wh", "quality_settled_m"]
 )";
 
 class Sensitivity : public testing::Test {
@@ -64,7 +64,7 @@ class Sensitivity : public testing::Test {
         for (std::size_t i = 0; i < 3; ++i) {
           x(static_cast<Eigen::Index>(i)) = *parsed_number(labels[1 + i]) - (i == 0 ? 10.0 : 0.0);
         }
-        trial.metrics = {{"energy_mean_wh", f(x)}, {"quality_settled_m", 7.0}};
+        trial.measures = {{"energy_mean_wh", f(x)}, {"quality_settled_m", 7.0}};
       }
       store.write(trial);
     }

@@ -30,7 +30,7 @@ set = { trial.duration_s = 10 }
 [[table]]
 name = "energy"
 rows = []
-metrics = ["energy_mean_wh"]
+measures = ["energy_mean_wh"]
 STUDY
 "$here/../../analysis/distributed/slurm_array.sh" "$name.toml" 2 "out $name" 2>log ||
   { cat log; exit 1; }

@@ -62,7 +62,7 @@ values = [10, 30]
 [[table]]
 name = "energy"
 rows = ["period_s"]
-metrics = ["energy_mean_wh"]
+measures = ["energy_mean_wh"]
 STUDY
 "$SHOAL" sweep study.toml --out one >/dev/null
 "$here/../../analysis/distributed/slurm_array.sh" study.toml 3 many

@@ -28,7 +28,7 @@ StoredTrial trial(const std::string& key) {
           .program = "0.1.0-abc",
           .failure = "",
           .wall_s = 0.125,
-          .metrics = {{"energy_wh", 0.1}, {"quality_m", std::nullopt}},
+          .measures = {{"energy_wh", 0.1}, {"quality_m", std::nullopt}},
           .series = {}};
 }
 
@@ -67,10 +67,10 @@ TEST_F(StoreInAFolder, GivesBackWhatWasWritten) {
   EXPECT_EQ(found.program, written.program);
   EXPECT_FALSE(found.failed());
   EXPECT_EQ(found.wall_s, written.wall_s);
-  EXPECT_EQ(found.metrics, written.metrics);
+  EXPECT_EQ(found.measures, written.measures);
 }
 
-TEST_F(StoreInAFolder, KeepsEveryBitOfAMetric) {
+TEST_F(StoreInAFolder, KeepsEveryBitOfAMeasure) {
   const std::vector<double> numbers{0.1,
                                     1.0 / 3.0,
                                     -1e300,
@@ -81,19 +81,19 @@ TEST_F(StoreInAFolder, KeepsEveryBitOfAMetric) {
                                     -infinity,
                                     std::numeric_limits<double>::max()};
   StoredTrial written = trial("a");
-  written.metrics.clear();
+  written.measures.clear();
   for (const double x : numbers) {
-    written.metrics.emplace_back("m" + std::to_string(written.metrics.size()), x);
+    written.measures.emplace_back("m" + std::to_string(written.measures.size()), x);
   }
   write(written);
   std::vector<double> found;
-  for (const auto& [name, value] : read("a").metrics) found.push_back(value.value());
+  for (const auto& [name, value] : read("a").measures) found.push_back(value.value());
   EXPECT_EQ(bits(found), bits(numbers));
 }
 
-TEST_F(StoreInAFolder, RefusesAMetricThatIsNoNumber) {
+TEST_F(StoreInAFolder, RefusesAMeasureThatIsNoNumber) {
   StoredTrial written = trial("a");
-  written.metrics = {{"energy_wh", nan_value}};
+  written.measures = {{"energy_wh", nan_value}};
   EXPECT_THROW(write(written), std::logic_error);
   EXPECT_FALSE(Store(folder_.path(), Store::Access::read).find("a"));
 }
@@ -119,17 +119,18 @@ TEST_F(StoreInAFolder, KeepsEveryBitOfASeriesAndItsUnit) {
   EXPECT_EQ(bits(store.series("quality")[0].second.values), bits(written.series[1].values));
 }
 
-TEST_F(StoreInAFolder, GrowsByTheFactorsAndMetricsOfLaterTrials) {
+TEST_F(StoreInAFolder, GrowsByTheFactorsAndMeasuresOfLaterTrials) {
   write(trial("a"));
   StoredTrial later = trial("b");
   later.factors = {{"behaviour", "rigid"}, {"lost \"ones\"", "5"}};
-  later.metrics = {{"order", 2.0}, {"energy_wh", 3.0}};  // SQL has a word of that name
+  later.measures = {{"order", 2.0}, {"energy_wh", 3.0}};  // SQL has a word of that name
   write(later);
   EXPECT_EQ(read("b").factors, later.factors);
   EXPECT_EQ(read("a").factors, trial("a").factors);
   const Store store(folder_.path(), Store::Access::read);
-  EXPECT_EQ(store.metric_names(), (std::vector<std::string>{"energy_wh", "quality_m", "order"}));
-  EXPECT_EQ(read("a").metrics.back(), (std::pair<std::string, std::optional<double>>("order", {})));
+  EXPECT_EQ(store.measure_names(), (std::vector<std::string>{"energy_wh", "quality_m", "order"}));
+  EXPECT_EQ(read("a").measures.back(),
+            (std::pair<std::string, std::optional<double>>("order", {})));
 }
 
 TEST_F(StoreInAFolder, ReplacesATrialWithAllItsSeries) {
@@ -138,13 +139,13 @@ TEST_F(StoreInAFolder, ReplacesATrialWithAllItsSeries) {
   write(written);
   written.series.pop_back();
   written.failure = "it sank, \"slowly\"";
-  written.metrics = {{"energy_wh", 4.0}};
+  written.measures = {{"energy_wh", 4.0}};
   write(written);
   const StoredTrial found = read("a");
   EXPECT_EQ(found.series.size(), 1u);
   EXPECT_EQ(found.failure, written.failure);
-  EXPECT_EQ(found.metrics[0].second, 4.0);
-  EXPECT_EQ(found.metrics[1].second, std::nullopt);
+  EXPECT_EQ(found.measures[0].second, 4.0);
+  EXPECT_EQ(found.measures[1].second, std::nullopt);
   EXPECT_EQ(Store(folder_.path(), Store::Access::read).trials().size(), 1u);
 }
 
@@ -164,27 +165,27 @@ TEST_F(StoreInAFolder, StoresTogetherOrNotAtAll) {
   Store store(folder_.path(), Store::Access::write);
   EXPECT_THROW(store.together([&] {
     StoredTrial first = trial("a");
-    first.metrics.emplace_back("new_m", 1.0);
+    first.measures.emplace_back("new_m", 1.0);
     store.write(first);
     throw std::runtime_error("cut short");
   }),
                std::runtime_error);
   EXPECT_TRUE(store.trials().empty());
-  EXPECT_TRUE(store.metric_names().empty());
+  EXPECT_TRUE(store.measure_names().empty());
   // The columns that it had made are gone, too, and are made again.
   StoredTrial second = trial("b");
-  second.metrics.emplace_back("new_m", 2.0);
+  second.measures.emplace_back("new_m", 2.0);
   store.write(second);
-  EXPECT_EQ(store.find("b")->metrics.back().second, 2.0);
+  EXPECT_EQ(store.find("b")->measures.back().second, 2.0);
 }
 
-TEST_F(StoreInAFolder, ReadsTheMetricsThatAreAskedFor) {
+TEST_F(StoreInAFolder, ReadsTheMeasuresThatAreAskedFor) {
   write(trial("a"));
   const Store store(folder_.path(), Store::Access::read);
   const StoredTrial found = store.trials(std::vector<std::string>{"no_such", "energy_wh"}).front();
-  ASSERT_EQ(found.metrics.size(), 2u);
-  EXPECT_EQ(found.metrics[0].second, std::nullopt);
-  EXPECT_EQ(found.metrics[1].second, 0.1);
+  ASSERT_EQ(found.measures.size(), 2u);
+  EXPECT_EQ(found.measures[0].second, std::nullopt);
+  EXPECT_EQ(found.measures[1].second, 0.1);
 }
 
 TEST_F(StoreInAFolder, RefusesWhatIsNoStore) {
@@ -197,7 +198,7 @@ TEST_F(StoreInAFolder, RefusesWhatIsNoStore) {
 TEST(Difference, IsNoneBetweenEqualTrialsHoweverLongTheyTook) {
   StoredTrial a = trial("a"), b = trial("a");
   b.wall_s = 100.0;
-  b.metrics = {{"quality_m", std::nullopt}, {"energy_wh", 0.1}, {"other_m", std::nullopt}};
+  b.measures = {{"quality_m", std::nullopt}, {"energy_wh", 0.1}, {"other_m", std::nullopt}};
   a.series = {{"quality", "m", "", {0.0, 1.0}, {nan_value, 1.0}}};
   EXPECT_EQ(difference(a, b), std::nullopt);  // one of them lacks the series
   b.series = a.series;
@@ -207,10 +208,10 @@ TEST(Difference, IsNoneBetweenEqualTrialsHoweverLongTheyTook) {
 TEST(Difference, NamesWhatDiffers) {
   const StoredTrial a = trial("a");
   StoredTrial b = a;
-  b.metrics[0].second = 0.25;
+  b.measures[0].second = 0.25;
   EXPECT_EQ(difference(a, b).value_or(""), "energy_wh is 0.1 in the first, and 0.25 in the second");
   b = a;
-  b.metrics[1].second = 0.0;
+  b.measures[1].second = 0.0;
   EXPECT_EQ(difference(a, b).value_or(""), "quality_m is null in the first, and 0 in the second");
   b = a;
   b.seed = 5;

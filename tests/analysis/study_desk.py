@@ -22,7 +22,7 @@ only = { behaviour = "assignment_registration" }
 [[table]]
 name = "energy"
 rows = ["behaviour", "delta_theta_deg"]
-metrics = ["energy_mean_wh", "quality_final_m"]
+measures = ["energy_mean_wh", "quality_final_m"]
 
 [[table]]
 name = "against_time"

@@ -59,7 +59,7 @@ class Stored : public testing::Test {
         trial.failure = "it sank";
       } else {
         const auto k = static_cast<std::size_t>(planned.replication);
-        trial.metrics = {{"energy_mean_wh", found->second.at(k)}};
+        trial.measures = {{"energy_mean_wh", found->second.at(k)}};
       }
       store.write(trial);
     }
@@ -80,7 +80,7 @@ TEST_F(Stored, ATableShowsNAndFailuresAndTheBestOnlyIfATestTellsIt) {
   request.name = "t";
   request.rows = {"behaviour"};
   request.columns = {"period"};
-  request.metrics = {"energy_mean_wh"};
+  request.measures = {"energy_mean_wh"};
   request.best = Best::lowest;
   request.compare = "behaviour";
   request.test = PairedTest::paired_t;
@@ -104,8 +104,8 @@ TEST_F(Stored, NotRunFailedUndefinedAndNeverReachedAreFourAnswers) {
   using enum Answer::Kind;
   const TrialList list(read_study(scenarios::parse_toml(two_factors, "study.toml")));
   Store store(folder_, Store::Access::write);
-  using Metrics = std::vector<std::pair<std::string, std::optional<double>>>;
-  const std::vector<Metrics> trials{
+  using Measures = std::vector<std::pair<std::string, std::optional<double>>>;
+  const std::vector<Measures> trials{
       {{"time_to_quality_20m_s", 600.0}, {"quality_watched_s", 3600.0}, {"path_straightness", 0.9}},
       {{"time_to_quality_20m_s", {}}, {"quality_watched_s", 3600.0}, {"path_straightness", 0.5}},
       {{"time_to_quality_20m_s", {}}, {"quality_watched_s", {}}, {"path_straightness", {}}},
@@ -115,13 +115,13 @@ TEST_F(Stored, NotRunFailedUndefinedAndNeverReachedAreFourAnswers) {
     StoredTrial trial;
     trial.key = list.groups().front().key(planned.cell, planned.replication);
     trial.program = "test";
-    trial.metrics = trials[i];
+    trial.measures = trials[i];
     if (trials[i].empty()) trial.failure = "it sank";
     store.write(trial);
   }
   const StudyResults all(list, store, {"time_to_quality_20m_s", "path_straightness"}, {});
-  const auto answer = [&](const char* metric, std::size_t i) {
-    const Answer found = all.answer({.metric = metric}, i);
+  const auto answer = [&](const char* measure, std::size_t i) {
+    const Answer found = all.answer({.measure = measure}, i);
     return std::pair(found.kind, found.number);
   };
   for (const std::size_t i : {0U, 1U, 2U, 3U, 4U}) {
@@ -133,7 +133,7 @@ TEST_F(Stored, NotRunFailedUndefinedAndNeverReachedAreFourAnswers) {
                                                                   : i == 1 ? 0.5
                                                                            : 0.0));
   }
-  EXPECT_EQ(all.answer({.metric = "time_to_quality_20m_s"}, 1).bounded(), 3600.0);
+  EXPECT_EQ(all.answer({.measure = "time_to_quality_20m_s"}, 1).bounded(), 3600.0);
   EXPECT_EQ(all.stored("time_to_quality_20m_s", 1), std::nullopt);
 }
 
@@ -142,7 +142,7 @@ TEST_F(Stored, AFactorIsNotAveragedInSilence) {
   TableRequest request;
   request.name = "t";
   request.rows = {"behaviour"};
-  request.metrics = {"energy_mean_wh"};
+  request.measures = {"energy_mean_wh"};
   EXPECT_NE(complaint_of([&] { cell_table(request, all); }).find("period has several levels"),
             std::string::npos);
   request.pool = {"period"};
@@ -156,7 +156,7 @@ TEST_F(Stored, DifferencesAreTakenSeedBySeed) {
   request.name = "d";
   request.factor = "behaviour";
   request.reference = rigid;
-  request.metrics = {"energy_mean_wh"};
+  request.measures = {"energy_mean_wh"};
   const Table table = difference_table(request, all);
   const auto& difference = std::get<Estimate>(table.rows[0][3]);
   EXPECT_NEAR(difference.value, -0.2, 1e-12);  // -1, 1, -1, 1, -1
@@ -185,7 +185,7 @@ ComparisonRequest of_pairwise_and_rigid() {
   request.name = "d";
   request.factor = "behaviour";
   request.reference = pairwise;
-  request.metrics = {"energy_mean_wh"};
+  request.measures = {"energy_mean_wh"};
   return request;
 }
 
@@ -227,13 +227,13 @@ TEST_F(Stored, NumbersTooLargeToSubtractCostOneTableOnly) {
 name = "a"
 rows = ["behaviour"]
 columns = ["period"]
-metrics = ["energy_mean_wh"]
+measures = ["energy_mean_wh"]
 statistic = "mean"
 [[comparison]]
 name = "b"
 factor = "behaviour"
 reference = "pairwise_referencing"
-metrics = ["energy_mean_wh"]
+measures = ["energy_mean_wh"]
 )";
   const Energies energies{{{rigid, "10"}, {most, 1, 2, 3, 4}},
                           {{pairwise, "10"}, {-most, 1, 2, 3, 4}}};
@@ -259,7 +259,7 @@ class StoredTimes : public Stored {
       StoredTrial trial;
       trial.key = group.key(planned.cell, planned.replication);
       trial.program = "test";
-      trial.metrics = {
+      trial.measures = {
           {"time_to_quality_20m_s", time_s > 0.0 ? std::optional(time_s) : std::nullopt},
           {"quality_watched_s", time_s > 0.0 ? 3600.0 : -time_s}};
       store.write(trial);
@@ -274,7 +274,7 @@ TEST_F(StoredTimes, CountWithTheEndOfTheWatchWhereTheEventNeverCame) {
   request.name = "t";
   request.rows = {"behaviour"};
   request.columns = {"period"};
-  request.metrics = {"time_to_quality_20m_s"};
+  request.measures = {"time_to_quality_20m_s"};
   const Table table = cell_table(request, all);
   const auto& mean = std::get<Estimate>(table.rows[0][1]);
   EXPECT_EQ(mean.value, 2040.0) << "those that reached it took 1000 on average";
@@ -286,7 +286,7 @@ TEST_F(StoredTimes, CountWithTheEndOfTheWatchWhereTheEventNeverCame) {
   EXPECT_EQ(std::get<Missing>(table.rows[0][2]).failed, 0);
 
   ComparisonRequest compared = of_pairwise_and_rigid();
-  compared.metrics = request.metrics;
+  compared.measures = request.measures;
   const Table differences = difference_table(compared, all);
   EXPECT_EQ(std::get<Estimate>(cell_in(differences, "difference")).value, 2040.0 - 1200.0);
   EXPECT_EQ(std::get<Estimate>(cell_in(differences, "difference")).n, 5);
@@ -302,7 +302,7 @@ TEST_F(Stored, SamplesOfTwoKindsAreSaidToBe) {
   request.name = "t";
   request.rows = {"behaviour"};
   request.columns = {"period"};
-  request.metrics = {"energy_mean_wh"};
+  request.measures = {"energy_mean_wh"};
   const Table table = cell_table(request, all);
   EXPECT_TRUE(std::get<Estimate>(table.rows[0][1]).remarks.empty());
   ASSERT_EQ(std::get<Estimate>(table.rows[0][2]).remarks.size(), 1u);

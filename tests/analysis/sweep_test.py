@@ -39,7 +39,7 @@ range = [0, 15]
 
 [[sensitivity]]
 name = "indices"
-metrics = ["energy_mean_wh", "quality_final_m"]
+measures = ["energy_mean_wh", "quality_final_m"]
 """
 
 
@@ -116,7 +116,7 @@ class Sweep(StudyDesk):
         rows = list(csv.reader(tables["indices.csv"].decode().splitlines()))
         self.assertEqual({len(row) for row in rows}, {len(rows[0])})
         said = [(row[0], row[1]) for row in rows[1:]]
-        self.assertEqual(said, [(metric, factor) for metric in
+        self.assertEqual(said, [(measure, factor) for measure in
                                 ("energy mean", "quality final")
                                 for factor in ("radius", "noise")])
         total = rows[0].index("total")
@@ -173,7 +173,7 @@ values = [0, 1000000]
 """)
         text = (self.desk / "sea.toml").read_text()
         self.write("sea.toml", text.replace('pool = ["delta', 'pool = ["late", "delta')
-                   .replace('"delta_theta_deg"]\nmetrics', '"delta_theta_deg", "late"]\nmetrics'))
+                   .replace('"delta_theta_deg"]\nmeasures', '"delta_theta_deg", "late"]\nmeasures'))
         said = self.sweep(study="sea.toml")
         self.assertIn("9 failed; the first: ", said)
         reasons = {reason for status, reason in self.rows("status, reason") if status == "failed"}
@@ -207,7 +207,7 @@ values = [0, 1000000]
         for what, wrong, right, parts in [
                 ("a key", "delta_thta", "delta_theta", ['no option "delta_thta_deg"', "did you mean"]),
                 ("a value", "[10, 450]", "[10, 45]", ["delta_theta_deg is 450", "in the cell"]),
-                ("a metric", "energy_mean\"", "energy_mean_wh\"", ['"energy_mean"', "did you mean"]),
+                ("a measure", "energy_mean\"", "energy_mean_wh\"", ['"energy_mean"', "did you mean"]),
                 ("a row", 'rows = ["behavior"', 'rows = ["behaviour"', ['"behavior"', "did you mean"]),
                 ("a factor left out", 'rows = ["behaviour"]', 'rows = ["behaviour", "delta_theta_deg"]',
                  ["delta_theta_deg has several levels", "pool"]),

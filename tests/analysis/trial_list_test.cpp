@@ -78,7 +78,8 @@ TEST(Plan, MoreTrialsThanCanBePlannedAreRefusedAtOnce) {
 
 TEST(Plan, NamesOfTablesAreThoseOfFiles) {
   const auto named = [](const std::string& name) {
-    return base + "[[table]]\nname = \"" + name + "\"\nrows = []\nmetrics = [\"energy_mean_wh\"]\n";
+    return base + "[[table]]\nname = \"" + name +
+           "\"\nrows = []\nmeasures = [\"energy_mean_wh\"]\n";
   };
   EXPECT_NO_THROW(plan_of(named(std::string(100, 'x'))));
   EXPECT_NE(complaint_of([&] { plan_of(named(std::string(300, 'x'))); }).find("takes at most 100"),

@@ -46,11 +46,11 @@ void quality(benchmark::State& state, Alignment alignment, double box_m) {
   }
   scenarios::QualityOptions options;
   options.alignment = alignment;
-  FormationQuality metric(square(columns + 2, rows + 2), options);
+  FormationQuality measure(square(columns + 2, rows + 2), options);
   double gap_m = 0.0;
   std::size_t k = 0;
   for (auto _ : state) {
-    const FormationQuality::Value value = metric.of(instants[k++ % samples]);
+    const FormationQuality::Value value = measure.of(instants[k++ % samples]);
     if (value.lower_bound_m) gap_m = std::max(gap_m, value.quality_m - *value.lower_bound_m);
     benchmark::DoNotOptimize(value.quality_m);
   }

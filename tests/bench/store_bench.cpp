@@ -38,7 +38,7 @@ const char* const a_table = R"(
 name = "all"
 rows = ["period_s"]
 columns = ["behaviour"]
-metrics = ["energy_mean_wh", "quality_settled_m", "efficiency_m_per_wh"]
+measures = ["energy_mean_wh", "quality_settled_m", "efficiency_m_per_wh"]
 )";
 /// Beside it: 225 tests of 1000 differences each.
 const char* const its_best = "best = \"lowest\"\ncompare = \"behaviour\"\n";
@@ -47,7 +47,7 @@ TrialList list(const std::string& tables = a_table) {
   return TrialList(read_study(scenarios::parse_toml(study_text + tables, "study.toml")));
 }
 
-/// A trial with every metric that there is, and numbers that were not simulated.
+/// A trial with every measure that there is, and numbers that were not simulated.
 StoredTrial trial(const TrialList& list, std::size_t i) {
   const ListedTrial& planned = list.trial(i);
   const TrialGroup& group = list.groups()[planned.group];
@@ -61,14 +61,14 @@ StoredTrial trial(const TrialList& list, std::size_t i) {
                    .program = "bench",
                    .failure = "",
                    .wall_s = 1.0,
-                   .metrics = {},
+                   .measures = {},
                    .series = {}};
   for (std::size_t c = 0; c < group.columns().size(); ++c) {
     made.factors.emplace_back(group.columns()[c], group.labels(planned.cell)[c]);
   }
   double number = static_cast<double>(i % 997) + 0.125 * static_cast<double>(planned.cell);
   for (const Quantity& quantity : known_values()) {
-    made.metrics.emplace_back(quantity.name, number);
+    made.measures.emplace_back(quantity.name, number);
     number = number * 1.37 + 1.0 / 3.0;
   }
   return made;

@@ -54,7 +54,7 @@ values = ["thesis", "my_spring"]
 name = "easting"
 caption = "Where the swarm went"
 rows = ["kind"]
-metrics = ["my_easting_m"]
+measures = ["my_easting_m"]
 STUDY
 SHOAL_PLUGINS=$plugin prefix/bin/shoal sweep mine.toml --out study --jobs 2 --no-figures
 grep -F "$plugin" study/manifest.json
@@ -81,7 +81,7 @@ for package in prefix/lib/python3*/dist-packages; do
 import json
 import shoal
 
-wanted = json.load(open("out/summary.json"))["metrics"]
+wanted = json.load(open("out/summary.json"))["measures"]
 assert shoal.run("construction_square", {"trial.duration_s": 60}).measures == wanted
 print("the installed package runs", shoal.program)
 PYTHON
@@ -94,7 +94,7 @@ shoal.load_plugin(os.environ["PLUGIN"])
 run = shoal.run("construction_square", {"trial.duration_s": 60, "current.kind": "my_jet",
                                         "behaviour.kind": "my_gathering",
                                         "guidance.kind": "my_pursuit"})
-assert run.measures == json.load(open("mine/summary.json"))["metrics"]
+assert run.measures == json.load(open("mine/summary.json"))["measures"]
 assert "my_jet" in shoal.catalogue()["current"]
 assert "libmine.so-" in shoal.program
 PYTHON

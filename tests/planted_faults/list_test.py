@@ -43,7 +43,8 @@ class FaultsTest(unittest.TestCase):
         def check(fault):
             path = TOP / fault["file"]
             self.assertTrue(path.is_file())
-            self.assertEqual(path.suffix, ".cpp")  # a changed header would rebuild everything
+            # A header of a member is included by its own source; another would rebuild everything.
+            self.assertTrue(path.suffix == ".cpp" or path.with_suffix(".cpp").is_file())
             self.assertFalse({"program", "tools", "python"} & set(path.relative_to(TOP).parts))
 
         self.check_each(check)

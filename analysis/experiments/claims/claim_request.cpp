@@ -4,6 +4,7 @@
 #include <set>
 
 #include "shoal/analysis/experiments/measure.hpp"
+#include "shoal/analysis/experiments/study/renamed_keys.hpp"
 
 namespace shoal::analysis {
 namespace {
@@ -13,12 +14,12 @@ void declare_tested(Options<T>& o) {
   o.text("says", &T::says, "the statement");
   o.texts("groups", &T::groups, "the groups of the study it is about");
   o.setting("where", &T::where, "a table: factor = label or labels", "the cells it is about");
-  o.text("metric", &T::metric, "the number it is about (shoal list measures)");
+  o.text("measure", &T::measure, "the number it is about (shoal list measures)");
   o.text("series", &T::series, "or a number against time");
   o.number("at_s", &T::at_s, "s", at_least(0), "the time of the series");
   o.number("since_s", &T::since_s, "s", at_least(0),
            "it is about the change of the series from this time to at_s; default: about its value");
-  o.text("minus", &T::minus, "the number is less this one of the same trial, metric or series");
+  o.text("minus", &T::minus, "the number is less this one of the same trial, measure or series");
   o.template word<Average>("statistic", &T::average,
                            {{"mean", Average::mean}, {"median", Average::median}},
                            "what of the numbers over trials is tested");
@@ -29,7 +30,7 @@ Cause cause_of(const Setting& written) {
   if (!written.is_table()) {
     throw InputError(written.origin,
                      "a cause is not a text but a statement with a test of its own: write "
-                     "[claim.cause] with says, metric and test (and study, if other trials show "
+                     "[claim.cause] with says, measure and test (and study, if other trials show "
                      "it), or leave it out");
   }
   Cause cause;
@@ -69,12 +70,12 @@ void require_parts(const ClaimFile& file) {
 }  // namespace
 
 std::string TestedStatement::unit() const {
-  return series.empty() ? known_value(metric, origin).unit : known_series(series, origin).unit;
+  return series.empty() ? known_value(measure, origin).unit : known_series(series, origin).unit;
 }
 
 std::optional<std::string> TestedStatement::complaint() const {
   if (says.empty()) return "a claim says something";
-  if (metric.empty() == series.empty()) return "a claim needs a metric or a series";
+  if (measure.empty() == series.empty()) return "a claim needs a measure or a series";
   if (series.empty() && (at_s != 0.0 || of_a_change()))
     return "at_s and since_s belong to a series";
   if (of_a_change() && since_s >= at_s) return "since_s must be before at_s";
@@ -82,11 +83,11 @@ std::optional<std::string> TestedStatement::complaint() const {
 }
 
 void TestedStatement::require_known() const {
-  const bool of_series = metric.empty();
+  const bool of_series = measure.empty();
   const auto known = [&](const std::string& name) {
     return of_series ? known_series(name, origin) : known_value(name, origin);
   };
-  const Quantity quantity = known(of_series ? series : metric);
+  const Quantity quantity = known(of_series ? series : measure);
   if (!minus.empty() && known(minus).unit != quantity.unit) {
     throw InputError(origin, quantity.name + " is in " + quantity.unit + " and " + minus +
                                  " in another unit; their difference means nothing");
@@ -106,7 +107,7 @@ void Claim::declare(Options<Claim>& o) {
             "number of the statement that it is a part of; 0: it stands alone");
   o.text("section", &Claim::section, "where it is stated");
   declare_tested(o);
-  o.setting("cause", &Claim::written_cause, "a table: says, metric, test ...",
+  o.setting("cause", &Claim::written_cause, "a table: says, measure, test ...",
             "what may be behind a contradiction; printed only if its own test holds");
 }
 
@@ -136,6 +137,7 @@ void ClaimFile::declare(Options<ClaimFile>& o) {
 
 ClaimFile read_claims(const Setting& root) {
   ClaimFile file;
+  require_no_renamed_keys(root);
   read(file, root, "");
   for (Claim& claim : file.claims) {
     claim.require_known();

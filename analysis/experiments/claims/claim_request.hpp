@@ -30,8 +30,8 @@ struct TestedStatement {
   std::string says;  ///< in our words
   std::vector<std::string> groups;
   Setting where;
-  std::string metric;
-  std::string series;  ///< instead of a metric, with `at_s`
+  std::string measure;
+  std::string series;  ///< instead of a measure, with `at_s`
   double at_s = 0.0;
   double since_s = std::numeric_limits<double>::infinity();  ///< infinite: not of a change
   std::string minus;  ///< the number is less this one of the same trial; "" for none

@@ -55,7 +55,7 @@ TrialNumber trial_number(const TestedStatement& asked, const StudyResults& resul
   };
   const auto at = [&](double time_s) {
     std::optional<double> value =
-        answer(asked.series.empty() ? asked.metric : asked.series, time_s);
+        answer(asked.series.empty() ? asked.measure : asked.series, time_s);
     if (!value || asked.minus.empty()) return value;
     const std::optional<double> other = answer(asked.minus, time_s);
     return other ? std::optional(*value - *other) : std::nullopt;
@@ -177,7 +177,7 @@ SharedNumbers ClaimScope::numbers(const std::vector<CellPlace>& places) const {
     if (never_reached) ++shared.never_reached;
   }
   const bool times = asked.series.empty() && asked.minus.empty() &&
-                     !known_value(asked.metric, asked.origin).censored_by.empty();
+                     !known_value(asked.measure, asked.origin).censored_by.empty();
   if (times) restrict_times(shared, horizon_s);
   return shared;
 }

@@ -85,11 +85,11 @@ std::optional<fs::path> stored_study(const std::string& name, const fs::path& fo
 
 /// What a cause asks of the trials of another study.
 StudyResults asked_results(const Cause& cause, const fs::path& folder) {
-  std::vector<std::string> names{cause.series.empty() ? cause.metric : cause.series};
+  std::vector<std::string> names{cause.series.empty() ? cause.measure : cause.series};
   if (!cause.minus.empty()) names.push_back(cause.minus);
   const Store store(folder, Store::Access::read);
   const std::vector<std::string> none;
-  return {stored_plan(folder), store, cause.series.empty() ? names : none,
+  return {stored_list(folder), store, cause.series.empty() ? names : none,
           cause.series.empty() ? none : names};
 }
 

@@ -13,9 +13,9 @@ std::vector<Eigen::Vector2d> HeldSlots::positions() const {
 HeldSlots held_slots(const scenarios::World& world, std::span<const Eigen::Vector2d> places) {
   const scenarios::QualityOptions& quality = world.scenario().quality;
   HeldSlots held{world.scenario().plan.make()->padded(static_cast<int>(quality.layers)), {}};
-  FormationQuality metric(held.padded, quality);
-  metric.of(places);
-  held.slot.assign(metric.slot_of_position().begin(), metric.slot_of_position().end());
+  FormationQuality measure(held.padded, quality);
+  measure.of(places);
+  held.slot.assign(measure.slot_of_position().begin(), measure.slot_of_position().end());
   return held;
 }
 

@@ -21,7 +21,7 @@ class Quality final : public Measure {
     every_s_ = options.every_s;
     if (every_s_ <= 0.0) return;
     for (std::size_t i = 0; i < world.size(); ++i) start_.push_back(position(world, i));
-    metric_ = std::make_shared<FormationQuality>(
+    measure_ = std::make_shared<FormationQuality>(
         world.scenario().plan.make()->padded(static_cast<int>(options.layers)), options);
   }
 
@@ -64,7 +64,7 @@ class Quality final : public Measure {
     survivors(world, positions_, slots_);
     if (positions_.empty()) return;
     time_s_.push_back(world.time_s());
-    const FormationQuality::Value value = metric_->of(positions_);
+    const FormationQuality::Value value = measure_->of(positions_);
     quality_m_.push_back(value.quality_m);
     if (value.lower_bound_m) {
       gap_time_s_.push_back(world.time_s());
@@ -79,7 +79,7 @@ class Quality final : public Measure {
   }
 
   std::optional<scenarios::QualitySoFar> quality() const override {
-    if (!metric_) return std::nullopt;
+    if (!measure_) return std::nullopt;
     return scenarios::QualitySoFar{time_s_, quality_m_};
   }
 
@@ -119,12 +119,12 @@ class Quality final : public Measure {
     return share && share->least >= 0.0 ? std::optional(share->mean) : std::nullopt;
   }
 
-  std::shared_ptr<FormationQuality> metric_;
+  std::shared_ptr<FormationQuality> measure_;
   std::vector<Eigen::Vector2d> start_;
   std::vector<Eigen::Vector2d> positions_;
   std::vector<int> slots_;
   std::vector<double> time_s_, quality_m_;
-  std::vector<double> gap_time_s_, gap_m_;  // where the metric proves a lower bound
+  std::vector<double> gap_time_s_, gap_m_;  // where the measure proves a lower bound
   std::optional<double> reached_s_;
   std::optional<double> spent_wh_, straightness_;  ///< until then, or so far
 };

@@ -79,7 +79,7 @@ std::size_t cell_of(const AttributionRequest& request, const TrialGroup& group,
                                        "; an attribution needs every combination of levels");
 }
 
-/// One row a factor, and one for all of them, below those of the metrics before.
+/// One row a factor, and one for all of them, below those of the measures before.
 class AttributionTable {
  public:
   AttributionTable(const AttributionRequest& request, const StudyResults& results)
@@ -110,7 +110,7 @@ class AttributionTable {
   Table table() const {
     Table table{request_.name,
                 request_.caption,
-                {{.header = "metric"},
+                {{.header = "measure"},
                  {.header = "factor"},
                  {.header = "from"},
                  {.header = "to"},
@@ -120,7 +120,7 @@ class AttributionTable {
                  {.header = "last"}},
                 {},
                 {}};
-    for (const std::string& metric : request_.metrics) add(metric, table);
+    for (const std::string& measure : request_.measures) add(measure, table);
     table.notes.push_back(
         "share: Shapley value of the change, its effect averaged over all orders in which the "
         "changes can be made; the shares add up to the effect of all. alone: as the only change; "
@@ -142,8 +142,8 @@ class AttributionTable {
     return other ? std::optional(*own - *other) : std::nullopt;
   }
 
-  ShapleyAttribution attribution(const std::string& metric) const {
-    const Question question{metric, "", "", 0.0};
+  ShapleyAttribution attribution(const std::string& measure) const {
+    const Question question{measure, "", "", 0.0};
     std::vector<std::optional<double>> answers;
     for (int k = 0; k < results_.list().groups()[group_].replications(); ++k) {
       for (std::size_t mask = 0; mask < cells_.size(); ++mask) {
@@ -153,11 +153,11 @@ class AttributionTable {
     return shapley_attribution(answers, static_cast<int>(changes_.size()), confidence);
   }
 
-  void add(const std::string& metric, Table& table) const {
-    const Quantity& quantity = known_value(metric, request_.origin);
+  void add(const std::string& measure, Table& table) const {
+    const Quantity& quantity = known_value(measure, request_.origin);
     const std::string unit = quantity.unit.empty() ? "" : " (" + quantity.unit + ")";
-    const ShapleyAttribution result = attribution(metric);
-    std::string note = fmt::format("{}: {} seeds", metric, result.seeds);
+    const ShapleyAttribution result = attribution(measure);
+    std::string note = fmt::format("{}: {} seeds", measure, result.seeds);
     if (result.left_out > 0) {
       note += fmt::format(", {} left out, of which some answer is missing", result.left_out);
     }

@@ -32,7 +32,7 @@ class CellTable {
       : request_(request), results_(results), slices_(results, scope_of(request)) {
     // Kept dimensions come as named: columns first, then rows, then what was not named.
     columns_ = request.columns.size();
-    for (const std::string& name : request.metrics)
+    for (const std::string& name : request.measures)
       quantities_.push_back(known_value(name, request.origin));
     for (const std::string& name : request.series)
       quantities_.push_back(known_series(name, request.origin));
@@ -97,7 +97,7 @@ class CellTable {
     if (request_.series.empty()) return;
     double last = 0.0;
     const std::string& axis = request_.against.empty() ? request_.series.front() : request_.against;
-    for (std::size_t i = 0; i < results_.plan().trials(); ++i) {
+    for (std::size_t i = 0; i < results_.list().trials(); ++i) {
       const scenarios::Series* s = results_.series(axis, i);
       if (!s || s->time_s.empty()) continue;
       last = std::max(last, request_.against.empty() ? s->time_s.back() : s->values.back());

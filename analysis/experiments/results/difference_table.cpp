@@ -100,11 +100,11 @@ class DifferenceTable {
     for (std::size_t d = 1; d < slices.dimensions().size(); ++d) {
       head_.push_back({.header = slices.dimensions()[d].name, .unit = slices.dimensions()[d].unit});
     }
-    head_.push_back({.header = "metric"});
+    head_.push_back({.header = "measure"});
     head_.push_back({.header = compared.name});
-    for (const std::string& metric : request_.metrics) {
-      const Quantity& quantity = known_value(metric, request_.origin);
-      const Question question{metric, "", "", 0.0};
+    for (const std::string& measure : request_.measures) {
+      const Quantity& quantity = known_value(measure, request_.origin);
+      const Question question{measure, "", "", 0.0};
       for (std::vector<std::size_t> place : slices.places()) {
         if (compared.labels[place[0]] == request_.reference) continue;
         const std::size_t own = place[0];

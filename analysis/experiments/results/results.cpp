@@ -28,16 +28,16 @@ std::optional<double> time_of(const scenarios::Series& series, double value) {
   return series.time_s[k - 1] + share * (series.time_s[k] - series.time_s[k - 1]);
 }
 
-StudyResults::StudyResults(const TrialList& list, const std::vector<std::string>& metrics,
+StudyResults::StudyResults(const TrialList& list, const std::vector<std::string>& measures,
                            const std::vector<std::string>& series)
     : list_(list), states_(list.trials(), State::missing), failures_(list.trials()) {
-  for (const std::string& name : metrics) {
-    metrics_[name].resize(list.trials());
+  for (const std::string& name : measures) {
+    measures_[name].resize(list.trials());
     const auto known = std::ranges::find(known_values(), name, &Quantity::name);
     if (known == known_values().end()) continue;  // stored by another program
     for (const std::string& companion : {known->censored_by, known->event}) {
       if (companion.empty()) continue;
-      metrics_[companion].resize(list.trials());
+      measures_[companion].resize(list.trials());
       events_[name] = *known;
     }
   }
@@ -45,9 +45,9 @@ StudyResults::StudyResults(const TrialList& list, const std::vector<std::string>
 }
 
 StudyResults::StudyResults(const TrialList& list, const Store& store,
-                           const std::vector<std::string>& metrics,
+                           const std::vector<std::string>& measures,
                            const std::vector<std::string>& series)
-    : StudyResults(list, metrics, series) {
+    : StudyResults(list, measures, series) {
   std::unordered_map<std::string, std::size_t> place;
   for (std::size_t i = 0; i < list.trials(); ++i) {
     const ListedTrial& trial = list.trial(i);
@@ -63,10 +63,10 @@ StudyResults::StudyResults(const TrialList& list, const Store& store,
     }
     states_[found->second] = stored.failed() ? State::failed : State::done;
     failures_[found->second] = stored.failure;
-    for (const auto& [name, value] : stored.metrics) metrics_.at(name)[found->second] = value;
+    for (const auto& [name, value] : stored.measures) measures_.at(name)[found->second] = value;
   };
   std::vector<std::string> wanted;
-  for (const auto& [name, values] : metrics_) wanted.push_back(name);
+  for (const auto& [name, values] : measures_) wanted.push_back(name);
   store.visit(take, wanted);
   for (const std::string& name : series) {
     for (auto& [key, numbers] : store.series(name)) {
@@ -87,9 +87,9 @@ const scenarios::Series* StudyResults::series(const std::string& name, std::size
   return numbers ? &*numbers : nullptr;
 }
 
-std::optional<double> StudyResults::stored(const std::string& metric, std::size_t trial) const {
-  const auto found = metrics_.find(metric);
-  if (found == metrics_.end()) throw std::logic_error("the metric " + metric + " was not read");
+std::optional<double> StudyResults::stored(const std::string& measure, std::size_t trial) const {
+  const auto found = measures_.find(measure);
+  if (found == measures_.end()) throw std::logic_error("the measure " + measure + " was not read");
   return states_[trial] == State::done ? found->second[trial] : std::nullopt;
 }
 
@@ -99,9 +99,9 @@ Answer StudyResults::answer(const Question& question, std::size_t trial) const {
   const auto defined = [](const std::optional<double>& number) {
     return number ? Answer{Answer::Kind::value, *number} : Answer{Answer::Kind::undefined};
   };
-  if (!question.metric.empty()) {
-    const std::optional<double> value = stored(question.metric, trial);
-    const auto event = events_.find(question.metric);
+  if (!question.measure.empty()) {
+    const std::optional<double> value = stored(question.measure, trial);
+    const auto event = events_.find(question.measure);
     if (event == events_.end()) return defined(value);
     const auto& [name, unit, meaning, censored_by, time] = event->second;
     const std::optional<double> bound = time.empty() ? stored(censored_by, trial) : value;

@@ -13,9 +13,9 @@
 
 namespace shoal::analysis {
 
-/// A number that tables and claims ask of every trial: a metric, or a series at some place.
+/// A number that tables and claims ask of every trial: a measure, or a series at some place.
 struct Question {
-  std::string metric;   ///< or "" for a series
+  std::string measure;  ///< or "" for a series
   std::string series;   ///< its name
   std::string against;  ///< the series that `at` is a value of; "" for time
   double at = 0.0;      ///< s, or the unit of `against`
@@ -46,14 +46,14 @@ class StudyResults {
  public:
   enum class State : std::uint8_t { missing, failed, done };
 
-  /// Of a study whose trials all are missing; these metrics (and those that say whether their
+  /// Of a study whose trials all are missing; these measures (and those that say whether their
   /// events came) and series may be asked for.
-  StudyResults(const TrialList& list, const std::vector<std::string>& metrics,
+  StudyResults(const TrialList& list, const std::vector<std::string>& measures,
                const std::vector<std::string>& series);
 
-  /// Reads these metrics and these series. Throws InputError if trials of the study were run by
+  /// Reads these measures and these series. Throws InputError if trials of the study were run by
   /// different programs.
-  StudyResults(const TrialList& list, const Store& store, const std::vector<std::string>& metrics,
+  StudyResults(const TrialList& list, const Store& store, const std::vector<std::string>& measures,
                const std::vector<std::string>& series);
 
   const TrialList& list() const { return list_; }
@@ -63,11 +63,11 @@ class StudyResults {
   /// The shoal that ran the trials; "" if none has run.
   const std::string& program() const { return program_; }
 
-  /// Undefined is a metric that is null, a series that begins later or ends before.
+  /// Undefined is a measure that is null, a series that begins later or ends before.
   Answer answer(const Question& question, std::size_t trial) const;
 
-  /// A metric as the trial stored it: nothing where it is null, or the trial is not done.
-  std::optional<double> stored(const std::string& metric, std::size_t trial) const;
+  /// A measure as the trial stored it: nothing where it is null, or the trial is not done.
+  std::optional<double> stored(const std::string& measure, std::size_t trial) const;
 
   const scenarios::Series* series(const std::string& name, std::size_t trial) const;
 
@@ -76,8 +76,8 @@ class StudyResults {
   std::vector<State> states_;
   std::vector<std::string> failures_;
   std::string program_;
-  std::map<std::string, std::vector<std::optional<double>>> metrics_;
-  std::map<std::string, Quantity> events_;  ///< those of the metrics that wait for an event
+  std::map<std::string, std::vector<std::optional<double>>> measures_;
+  std::map<std::string, Quantity> events_;  ///< those of the measures that wait for an event
   std::map<std::string, std::vector<std::optional<scenarios::Series>>> series_;
 };
 

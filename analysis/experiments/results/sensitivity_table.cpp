@@ -37,9 +37,9 @@ std::size_t analysed_group(const SensitivityRequest& request, const TrialList& l
 
 /// Of each replication, cell by cell in the order of the design.
 AnswersBySeed answers_of(const StudyResults& results, std::size_t group,
-                         const std::string& metric) {
+                         const std::string& measure) {
   const TrialGroup& planned = results.list().groups()[group];
-  const Question question{metric, "", "", 0.0};
+  const Question question{measure, "", "", 0.0};
   AnswersBySeed answers(static_cast<std::size_t>(planned.replications()));
   for (int k = 0; k < planned.replications(); ++k) {
     for (std::size_t cell = 0; cell < planned.cells(); ++cell) {
@@ -95,7 +95,7 @@ Cell text_if_zero(const IndexEstimate& estimate) {
   return std::string(estimate.distinguishable() ? "" : "not distinguishable from 0");
 }
 
-/// One row a factor, below those of the metrics before.
+/// One row a factor, below those of the measures before.
 class IndexTable {
  public:
   IndexTable(const SensitivityRequest& request, const StudyResults& results)
@@ -114,15 +114,15 @@ class IndexTable {
 
   Resampling resampling() const { return {.level = confidence}; }
 
-  std::vector<Cell> row(const std::string& metric, std::size_t factor) const {
-    return {heading_of(known_value(metric, request_.origin)), planned().axes()[factor].name()};
+  std::vector<Cell> row(const std::string& measure, std::size_t factor) const {
+    return {heading_of(known_value(measure, request_.origin)), planned().axes()[factor].name()};
   }
 
   Table sobol_table() const {
     Table table{
         request_.name,
         request_.caption,
-        {{.header = "metric"},
+        {{.header = "measure"},
          {.header = "factor"},
          {.header = "first order", .name = "first_order"},
          {.header = "", .name = "first_order_note"},
@@ -131,11 +131,11 @@ class IndexTable {
         {},
         {"First-order (Saltelli) and total (Jansen) indices with 95 % bootstrap intervals. " +
          note_on_seeds(planned().replications())}};
-    for (const std::string& metric : request_.metrics) {
-      const auto answers = answers_of(results_, group_, metric);
+    for (const std::string& measure : request_.measures) {
+      const auto answers = answers_of(results_, group_, measure);
       const SobolIndices indices = sobol_indices(answers, saltelli_rows(planned()), resampling());
       for (std::size_t f = 0; f < indices.factors.size(); ++f) {
-        std::vector<Cell> cells = row(metric, f);
+        std::vector<Cell> cells = row(measure, f);
         cells.push_back(cell_of(indices.factors[f].first_order));
         cells.push_back(text_if_zero(indices.factors[f].first_order));
         cells.push_back(cell_of(indices.factors[f].total));
@@ -143,7 +143,7 @@ class IndexTable {
         table.rows.push_back(std::move(cells));
       }
       table.notes.push_back(
-          note(metric, indices.base_samples, indices.left_out, "base samples", indices.undefined));
+          note(measure, indices.base_samples, indices.left_out, "base samples", indices.undefined));
     }
     return table;
   }
@@ -151,7 +151,7 @@ class IndexTable {
   Table pair_table() const {
     Table table{request_.name + "_second_order",
                 request_.caption.empty() ? "" : request_.caption + ": pairs of factors",
-                {{.header = "metric"},
+                {{.header = "measure"},
                  {.header = "factor"},
                  {.header = "and factor", .name = "and_factor"},
                  {.header = "second order", .name = "second_order"},
@@ -160,11 +160,11 @@ class IndexTable {
                 {"What two factors do together, beyond what each does by itself (Saltelli 2002), "
                  "with 95 % bootstrap intervals. " +
                  note_on_seeds(planned().replications())}};
-    for (const std::string& metric : request_.metrics) {
-      const auto answers = answers_of(results_, group_, metric);
+    for (const std::string& measure : request_.measures) {
+      const auto answers = answers_of(results_, group_, measure);
       for (const SobolPair& pair :
            sobol_indices(answers, saltelli_rows(planned()), resampling()).pairs) {
-        std::vector<Cell> cells = row(metric, static_cast<std::size_t>(pair.first));
+        std::vector<Cell> cells = row(measure, static_cast<std::size_t>(pair.first));
         cells.emplace_back(planned().axes()[static_cast<std::size_t>(pair.second)].name());
         cells.push_back(cell_of(pair.index));
         cells.push_back(text_if_zero(pair.index));
@@ -177,7 +177,7 @@ class IndexTable {
   Table convergence_table() const {
     Table table{request_.name + "_convergence",
                 request_.caption.empty() ? "" : request_.caption + ": convergence",
-                {{.header = "metric"},
+                {{.header = "measure"},
                  {.header = "factor"},
                  {.header = "base samples", .name = "base_samples"},
                  {.header = "first order", .name = "first_order"},
@@ -185,12 +185,12 @@ class IndexTable {
                 {},
                 {"Indices that still move from one number of base samples to the next have not "
                  "converged."}};
-    for (const std::string& metric : request_.metrics) {
-      const auto answers = answers_of(results_, group_, metric);
+    for (const std::string& measure : request_.measures) {
+      const auto answers = answers_of(results_, group_, measure);
       for (const SobolIndices& indices :
            sobol_convergence(answers, saltelli_rows(planned()), resampling())) {
         for (std::size_t f = 0; f < indices.factors.size(); ++f) {
-          std::vector<Cell> cells = row(metric, f);
+          std::vector<Cell> cells = row(measure, f);
           cells.emplace_back(Estimate{.value = static_cast<double>(indices.base_samples),
                                       .digits = Digits::decimals(0)});
           cells.push_back(cell_of(indices.factors[f].first_order));
@@ -206,7 +206,7 @@ class IndexTable {
     Table table{
         request_.name,
         request_.caption,
-        {{.header = "metric"},
+        {{.header = "measure"},
          {.header = "factor"},
          {.header = "mu"},
          {.header = "mu*", .name = "mu_star"},
@@ -214,12 +214,12 @@ class IndexTable {
         {},
         {"Elementary effects of a change by the whole range of the factor; mu* with its 95 % "
          "bootstrap interval."}};
-    for (const std::string& metric : request_.metrics) {
+    for (const std::string& measure : request_.measures) {
       const MorrisEffects effects = morris_effects(
-          planned().design(), means_of(answers_of(results_, group_, metric)), resampling());
+          planned().design(), means_of(answers_of(results_, group_, measure)), resampling());
       for (std::size_t f = 0; f < effects.factors.size(); ++f) {
         const MorrisEffect& effect = effects.factors[f];
-        std::vector<Cell> cells = row(metric, f);
+        std::vector<Cell> cells = row(measure, f);
         cells.emplace_back(Estimate{.value = effect.mu, .digits = Digits::significant(3)});
         cells.push_back(cell_of(effect.mu_star));
         cells.push_back(
@@ -228,14 +228,14 @@ class IndexTable {
         table.rows.push_back(std::move(cells));
       }
       table.notes.push_back(
-          note(metric, effects.trajectories, effects.left_out, "trajectories", effects.undefined));
+          note(measure, effects.trajectories, effects.left_out, "trajectories", effects.undefined));
     }
     return table;
   }
 
-  static std::string note(const std::string& metric, int count, int left_out,
+  static std::string note(const std::string& measure, int count, int left_out,
                           const std::string& samples, const std::string& undefined) {
-    std::string text = metric + ": " + std::to_string(count) + " " + samples;
+    std::string text = measure + ": " + std::to_string(count) + " " + samples;
     if (left_out > 0) {
       text += ", " + std::to_string(left_out) + " left out, of which some answer is missing";
     }

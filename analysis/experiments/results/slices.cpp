@@ -140,8 +140,8 @@ Slices::Slices(const StudyResults& results, const Scope& scope) : results_(resul
   const TrialList& list = results.list();
   const Selected found = selected(list, scope);
   const std::vector<std::string> names = names_of(found.all);
-  for (const auto* list : {&scope.kept, &scope.pooled}) {
-    for (const std::string& name : *list) {
+  for (const auto* wanted : {&scope.kept, &scope.pooled}) {
+    for (const std::string& name : *wanted) {
       if (contains(names, name)) continue;
       throw InputError(scope.origin,
                        "there is no factor \"" + name + "\" to show" + suggestion(name, names));
@@ -182,7 +182,7 @@ Sample Slices::sample(const std::vector<std::size_t>& place, const Question& que
   Sample sample;
   const auto found = trials_.find(place);
   if (found == trials_.end()) return sample;
-  const auto known = std::ranges::find(known_values(), question.metric, &Quantity::name);
+  const auto known = std::ranges::find(known_values(), question.measure, &Quantity::name);
   if (known != known_values().end()) {
     sample.times = !known->censored_by.empty();
     sample.waits = sample.times || !known->event.empty();

@@ -19,29 +19,29 @@ namespace {
 
 namespace fs = std::filesystem;
 
-const std::vector<std::string>& usual_metrics() {
-  static const std::vector<std::string> metrics{"energy_mean_wh", "thrust_time_ratio_mean",
-                                                "quality_settled_m", "time_to_quality_20m_s"};
-  return metrics;
+const std::vector<std::string>& usual_measures() {
+  static const std::vector<std::string> measures{"energy_mean_wh", "thrust_time_ratio_mean",
+                                                 "quality_settled_m", "time_to_quality_20m_s"};
+  return measures;
 }
 
-std::vector<std::string> needed_metrics(const Study& study) {
-  std::set<std::string> names(usual_metrics().begin(), usual_metrics().end());
+std::vector<std::string> needed_measures(const Study& study) {
+  std::set<std::string> names(usual_measures().begin(), usual_measures().end());
   for (const TableRequest& table : study.tables) {
-    names.insert(table.metrics.begin(), table.metrics.end());
+    names.insert(table.measures.begin(), table.measures.end());
   }
   for (const ComparisonRequest& comparison : study.comparisons) {
-    names.insert(comparison.metrics.begin(), comparison.metrics.end());
+    names.insert(comparison.measures.begin(), comparison.measures.end());
   }
   for (const SensitivityRequest& sensitivity : study.sensitivities) {
-    names.insert(sensitivity.metrics.begin(), sensitivity.metrics.end());
+    names.insert(sensitivity.measures.begin(), sensitivity.measures.end());
   }
   for (const AttributionRequest& attribution : study.attributions) {
-    names.insert(attribution.metrics.begin(), attribution.metrics.end());
+    names.insert(attribution.measures.begin(), attribution.measures.end());
   }
   for (const TestedStatement* asked : tested_on_the_study(study.claims)) {
-    if (asked->metric.empty()) continue;
-    names.insert(asked->metric);
+    if (asked->measure.empty()) continue;
+    names.insert(asked->measure);
     if (!asked->minus.empty()) names.insert(asked->minus);
   }
   return {names.begin(), names.end()};
@@ -70,7 +70,7 @@ TableRequest usual_table(const TrialGroup& group) {
   TableRequest request;
   request.name = group.name().empty() ? "results" : group.name();
   request.groups = {group.name()};
-  request.metrics = usual_metrics();
+  request.measures = usual_measures();
   // One row of all that a design drew: cells that are met once have no scatter.
   if (group.sampled()) request.pool = group.columns();
   return request;
@@ -80,11 +80,11 @@ TableRequest usual_table(const TrialGroup& group) {
 
 StudyResults read_results(const TrialList& list, const fs::path& folder) {
   const Store store(folder, Store::Access::read);
-  return {list, store, needed_metrics(list.study()), needed_series(list.study())};
+  return {list, store, needed_measures(list.study()), needed_series(list.study())};
 }
 
 std::size_t require_answerable(const TrialList& list) {
-  const StudyResults none(list, needed_metrics(list.study()), needed_series(list.study()));
+  const StudyResults none(list, needed_measures(list.study()), needed_series(list.study()));
   require_answerable_claims(none);
   return study_tables(none).size() + (list.study().claims.empty() ? 0 : 1);
 }

@@ -18,7 +18,7 @@ StudyResults read_results(const TrialList& list, const std::filesystem::path& fo
 std::size_t require_answerable(const TrialList& list);
 
 /// Every table that the study asks for, in its order; a study that asks for none gets one for each
-/// group: every factor in the rows, a few metrics in the columns. Throws InputError.
+/// group: every factor in the rows, a few measures in the columns. Throws InputError.
 std::vector<Table> study_tables(const StudyResults& results);
 
 /// Writes tables/NAME.{tex,csv,md} into the folder, that of the claims (if any) last, and takes

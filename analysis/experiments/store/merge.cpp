@@ -137,9 +137,9 @@ Merged merge(const fs::path& folder, const std::vector<fs::path>& others) {
     }
   }
 
-  Merged merged{.plan = stored_plan(folder), .folders = {}};
-  StoredUnion all(merged.plan, store, folder);
-  Manifest manifest(merged.plan, folder);
+  Merged merged{.list = stored_list(folder), .folders = {}};
+  StoredUnion all(merged.list, store, folder);
+  Manifest manifest(merged.list, folder);
   const ManifestBefore before(folder);
   try {
     store.together([&] {

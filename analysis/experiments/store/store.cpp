@@ -16,7 +16,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// The columns that come before those of factors ("f:NAME") and metrics ("NAME").
+// The columns that come before those of factors ("f:NAME") and measures ("NAME").
 constexpr const char* schema = R"(
   CREATE TABLE trial (
     trial_key TEXT PRIMARY KEY, trial_id TEXT NOT NULL, scenario_id TEXT NOT NULL,
@@ -43,7 +43,7 @@ std::string quoted_name(const std::string& name) {
 struct Store::Database {
   sqlite3* connection = nullptr;
   fs::path file;
-  std::vector<std::string> factors, metrics;
+  std::vector<std::string> factors, measures;
 
   KeptStatement insert, forget, add_series;
 
@@ -91,7 +91,7 @@ std::string factor_column(const std::string& name) {
 
 void Store::Database::read_columns() {
   factors = column_list(connection, "factor");
-  metrics = column_list(connection, "metric");
+  measures = column_list(connection, "metric");
 }
 
 void Store::Database::add_columns(const std::string& list, std::vector<std::string>& known,
@@ -160,12 +160,12 @@ Store::Store(Store&&) noexcept = default;
 Store& Store::operator=(Store&&) noexcept = default;
 
 void Store::Database::put(const StoredTrial& trial) {
-  std::vector<std::string> factor_names, metric_names;
+  std::vector<std::string> factor_names, measure_names;
   for (const auto& [name, label] : trial.factors) factor_names.push_back(name);
-  for (const auto& [name, value] : trial.metrics) metric_names.push_back(name);
+  for (const auto& [name, value] : trial.measures) measure_names.push_back(name);
   add_columns("factor", factors, factor_names, "TEXT");
   // Without a type: a column of type REAL takes the sign from a zero.
-  add_columns("metric", metrics, metric_names, "");
+  add_columns("metric", measures, measure_names, "");
 
   std::string columns =
       "trial_key, trial_id, scenario_id, study_group, replication, seed, program, status, reason, "
@@ -173,7 +173,8 @@ void Store::Database::put(const StoredTrial& trial) {
   std::string places = "?, ?, ?, ?, ?, ?, ?, ?, ?, ?";
   for (const std::string& name : factor_names)
     columns += ", " + factor_column(name), places += ", ?";
-  for (const std::string& name : metric_names) columns += ", " + quoted_name(name), places += ", ?";
+  for (const std::string& name : measure_names)
+    columns += ", " + quoted_name(name), places += ", ?";
   Statement& row = insert.ready(
       connection, "INSERT OR REPLACE INTO trial (" + columns + ") VALUES (" + places + ")");
   row.bind(1, trial.key);
@@ -188,9 +189,9 @@ void Store::Database::put(const StoredTrial& trial) {
   row.bind(10, std::optional(trial.wall_s));
   int place = 11;
   for (const auto& [name, label] : trial.factors) row.bind(place++, label);
-  for (const auto& [name, value] : trial.metrics) {
+  for (const auto& [name, value] : trial.measures) {
     if (value && std::isnan(*value)) {
-      throw std::logic_error("the metric " + name + " of " + trial.key +
+      throw std::logic_error("the measure " + name + " of " + trial.key +
                              " is NaN; what has no value is null");
     }
     row.bind(place++, value);
@@ -227,14 +228,14 @@ void Store::together(const std::function<void()>& work) {
   Database& db = *database_;
   // Inside other work, it is part of that.
   if (sqlite3_get_autocommit(db.connection) == 0) return work();
-  const std::vector<std::string> factors_before = db.factors, metrics_before = db.metrics;
+  const std::vector<std::string> factors_before = db.factors, measures_before = db.measures;
   try {
     Transaction transaction(db.connection);
     work();
     transaction.commit();
   } catch (...) {
     db.factors = factors_before;
-    db.metrics = metrics_before;
+    db.measures = measures_before;
     throw;
   }
 }
@@ -254,7 +255,7 @@ std::string Store::Database::selecting(const std::vector<std::string>& names,
       "trial_key";
   for (const std::string& name : factors) columns += ", " + factor_column(name);
   for (const std::string& name : names) {
-    const bool known = std::ranges::find(metrics, name) != metrics.end();
+    const bool known = std::ranges::find(measures, name) != measures.end();
     columns += known ? ", " + quoted_name(name) : std::string(", NULL");
   }
   return "SELECT " + columns + " FROM trial" + condition;
@@ -277,14 +278,14 @@ StoredTrial Store::Database::read(const Statement& select,
     if (!select.null(place)) trial.factors.emplace_back(name, select.text(place));
     ++place;
   }
-  for (const std::string& name : names) trial.metrics.emplace_back(name, select.number(place++));
+  for (const std::string& name : names) trial.measures.emplace_back(name, select.number(place++));
   return trial;
 }
 
 void Store::visit(const std::function<void(StoredTrial&)>& visitor,
-                  const std::optional<std::vector<std::string>>& metrics) const {
+                  const std::optional<std::vector<std::string>>& measures) const {
   const Database& db = *database_;
-  const std::vector<std::string>& wanted = metrics ? *metrics : db.metrics;
+  const std::vector<std::string>& wanted = measures ? *measures : db.measures;
   Statement select(db.connection, db.selecting(wanted, ""));
   while (select.step()) {
     StoredTrial trial = db.read(select, wanted);
@@ -293,18 +294,18 @@ void Store::visit(const std::function<void(StoredTrial&)>& visitor,
 }
 
 std::vector<StoredTrial> Store::trials(
-    const std::optional<std::vector<std::string>>& metrics) const {
+    const std::optional<std::vector<std::string>>& measures) const {
   std::vector<StoredTrial> trials;
-  visit([&](StoredTrial& trial) { trials.push_back(std::move(trial)); }, metrics);
+  visit([&](StoredTrial& trial) { trials.push_back(std::move(trial)); }, measures);
   return trials;
 }
 
 std::optional<StoredTrial> Store::find(const std::string& key) const {
   const Database& db = *database_;
-  Statement select(db.connection, db.selecting(db.metrics, " WHERE trial_key = ?"));
+  Statement select(db.connection, db.selecting(db.measures, " WHERE trial_key = ?"));
   select.bind(1, key);
   if (!select.step()) return std::nullopt;
-  return db.read(select, db.metrics);
+  return db.read(select, db.measures);
 }
 
 void Store::require_whole(const scenarios::Series& series, const std::string& key) const {
@@ -351,8 +352,8 @@ std::vector<std::string> Store::keys_with_series(const std::string& name) const 
   return keys;
 }
 
-std::vector<std::string> Store::metric_names() const {
-  return database_->metrics;
+std::vector<std::string> Store::measure_names() const {
+  return database_->measures;
 }
 
 std::vector<std::string> Store::series_names() const {

@@ -24,7 +24,7 @@ struct StoredTrial {
   std::string program;   ///< that ran it
   std::string failure;   ///< why it failed; "" if it did not
   double wall_s = 0.0;
-  std::vector<std::pair<std::string, std::optional<double>>> metrics;
+  std::vector<std::pair<std::string, std::optional<double>>> measures;
   std::vector<scenarios::Series> series;
 
   bool failed() const { return !failure.empty(); }
@@ -32,7 +32,7 @@ struct StoredTrial {
 
 /// The finished trials of a study, in one SQLite file.
 ///
-/// Table `trial` has a row for each, with a column for each factor and each metric; table `series`
+/// Table `trial` has a row for each, with a column for each factor and each measure; table `series`
 /// has their numbers against time. A trial is written in one transaction: a program that is killed
 /// loses those that were not finished, and no other.
 class Store {
@@ -47,7 +47,7 @@ class Store {
   Store& operator=(Store&&) noexcept;
 
   /// In one transaction. A trial of the same key is replaced. Throws SystemError; then nothing of
-  /// the trial is stored. A metric that is NaN is a mistake of the caller: SQLite keeps none.
+  /// the trial is stored. A measure that is NaN is a mistake of the caller: SQLite keeps none.
   void write(const StoredTrial& trial);
 
   /// In one transaction.
@@ -57,14 +57,14 @@ class Store {
   /// throws.
   void together(const std::function<void()>& work);
 
-  /// Calls `visitor` with every trial, without its series; in no particular order. With `metrics`,
+  /// Calls `visitor` with every trial, without its series; in no particular order. With `measures`,
   /// these only (null where no trial of the store has it), else all.
   void visit(const std::function<void(StoredTrial& trial)>& visitor,
-             const std::optional<std::vector<std::string>>& metrics = {}) const;
+             const std::optional<std::vector<std::string>>& measures = {}) const;
   std::vector<StoredTrial> trials(
-      const std::optional<std::vector<std::string>>& metrics = {}) const;
+      const std::optional<std::vector<std::string>>& measures = {}) const;
 
-  /// The trial of that key, with all its metrics and without its series.
+  /// The trial of that key, with all its measures and without its series.
   std::optional<StoredTrial> find(const std::string& key) const;
 
   /// All series of one trial, by name.
@@ -76,8 +76,8 @@ class Store {
   /// Keys of the trials that have a series of that name.
   std::vector<std::string> keys_with_series(const std::string& name) const;
 
-  /// Names of all metrics and of all series that some trial has.
-  std::vector<std::string> metric_names() const;
+  /// Names of all measures and of all series that some trial has.
+  std::vector<std::string> measure_names() const;
   std::vector<std::string> series_names() const;
 
  private:

@@ -23,7 +23,7 @@ bool same_bits(const std::vector<double>& a, const std::vector<double>& b) {
 
 std::map<std::string, double> values_of(const StoredTrial& trial) {
   std::map<std::string, double> values;
-  for (const auto& [name, value] : trial.metrics) {
+  for (const auto& [name, value] : trial.measures) {
     if (value) values.emplace(name, *value);
   }
   return values;

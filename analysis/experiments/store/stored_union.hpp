@@ -53,7 +53,7 @@ class StoredUnion {
 };
 
 /// What two stored trials of one key say differently, but for the time that they took; nothing if
-/// they agree. A metric that one of them lacks is null there; a series that one lacks is no
+/// they agree. A measure that one of them lacks is null there; a series that one lacks is no
 /// difference.
 std::optional<std::string> difference(const StoredTrial& a, const StoredTrial& b);
 

@@ -16,7 +16,7 @@ TrialOutcome trial_outcome(const scenarios::Scenario& scenario,
     TrialSettings settings{.record = false};
     if (observer) settings.observers.push_back(observer);
     Trial trial = run_trial(scenario, settings);
-    outcome.metrics = std::move(trial.results.values);
+    outcome.measures = std::move(trial.results.values);
     for (scenarios::Series& each : trial.results.series) {
       if (std::ranges::find(series, each.name) != series.end()) {
         outcome.series.push_back(std::move(each));

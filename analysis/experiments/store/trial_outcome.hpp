@@ -15,7 +15,7 @@ namespace shoal::analysis {
 struct TrialOutcome {
   std::string failure;  ///< why it failed; "" if it did not
   double wall_s = 0.0;
-  std::vector<std::pair<std::string, std::optional<double>>> metrics;
+  std::vector<std::pair<std::string, std::optional<double>>> measures;
   std::vector<scenarios::Series> series;
 };
 

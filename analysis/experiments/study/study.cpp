@@ -5,6 +5,7 @@
 #include <set>
 
 #include "shoal/analysis/experiments/measure.hpp"
+#include "shoal/analysis/experiments/study/renamed_keys.hpp"
 #include "shoal/core/text.hpp"
 #include "shoal/scenarios/library_path.hpp"
 #include "shoal/scenarios/toml_file.hpp"
@@ -69,18 +70,18 @@ void require_known_series(const std::vector<std::string>& names, const Origin& o
 void require_known_quantities(const Study& study) {
   require_known_series(study.series, study.origin);
   for (const TableRequest& table : study.tables) {
-    require_known_values(table.metrics, table.origin);
+    require_known_values(table.measures, table.origin);
     require_known_series(table.series, table.origin);
     if (!table.against.empty()) known_series(table.against, table.origin);
   }
   for (const ComparisonRequest& comparison : study.comparisons) {
-    require_known_values(comparison.metrics, comparison.origin);
+    require_known_values(comparison.measures, comparison.origin);
   }
   for (const SensitivityRequest& sensitivity : study.sensitivities) {
-    require_known_values(sensitivity.metrics, sensitivity.origin);
+    require_known_values(sensitivity.measures, sensitivity.origin);
   }
   for (const AttributionRequest& attribution : study.attributions) {
-    require_known_values(attribution.metrics, attribution.origin);
+    require_known_values(attribution.measures, attribution.origin);
   }
 }
 
@@ -160,8 +161,8 @@ void TableRequest::declare(Options<TableRequest>& o) {
   o.texts("rows", &T::rows, "factors that run down the table; default: all that are not columns");
   o.texts("columns", &T::columns, "factors that run across the table");
   o.texts("pool", &T::pool, "factors whose levels are taken together as if they were replications");
-  o.texts("metrics", &T::metrics, "what is shown of every trial (shoal list measures)");
-  o.texts("series", &T::series, "what is shown against time, in rows, instead of metrics");
+  o.texts("measures", &T::measures, "what is shown of every trial (shoal list measures)");
+  o.texts("series", &T::series, "what is shown against time, in rows, instead of measures");
   o.number("every", &T::every, "", above(0), "step of the rows of a series (s, or as `against`)");
   o.text("against", &T::against, "the series that stands in the rows; default: time");
   o.word("statistic", &T::statistic,
@@ -182,7 +183,7 @@ void TableRequest::declare(Options<TableRequest>& o) {
 
 std::optional<std::string> TableRequest::complaint() const {
   if (auto wrong = name_complaint(name, "a table")) return wrong;
-  if (metrics.empty() == series.empty()) return "a table takes metrics or series";
+  if (measures.empty() == series.empty()) return "a table takes measures or series";
   if (!series.empty() && every == 0.0) return "a table of series needs every: the step of its rows";
   if (series.empty() && (every != 0.0 || !against.empty())) {
     return "every and against belong to a table of series";
@@ -199,7 +200,7 @@ void ComparisonRequest::declare(Options<ComparisonRequest>& o) {
   declare_cells(o);
   o.text("factor", &C::factor, "the factor whose levels are compared");
   o.text("reference", &C::reference, "the level that the others are compared with");
-  o.texts("metrics", &C::metrics, "what is compared (shoal list measures)");
+  o.texts("measures", &C::measures, "what is compared (shoal list measures)");
   declare_test(o);
   o.number("resolve_percent", &C::resolve_percent, "%", above(0),
            "the last column says how many replications would show a difference so large");
@@ -208,7 +209,7 @@ void ComparisonRequest::declare(Options<ComparisonRequest>& o) {
 std::optional<std::string> ComparisonRequest::complaint() const {
   if (auto wrong = name_complaint(name, "a comparison")) return wrong;
   if (factor.empty() || reference.empty()) return "a comparison needs factor and reference";
-  if (metrics.empty()) return "a comparison needs metrics";
+  if (measures.empty()) return "a comparison needs measures";
   return std::nullopt;
 }
 
@@ -216,14 +217,14 @@ void SensitivityRequest::declare(Options<SensitivityRequest>& o) {
   using S = SensitivityRequest;
   declare_scope(o);
   o.text("group", &S::group, "the group with design saltelli or morris; default: the only one");
-  o.texts("metrics", &S::metrics, "answers whose sensitivity is asked (shoal list measures)");
+  o.texts("measures", &S::measures, "answers whose sensitivity is asked (shoal list measures)");
   o.flag("convergence", &S::convergence,
          "also a table of the indices from 1/8, 1/4 and 1/2 of the base samples");
 }
 
 std::optional<std::string> SensitivityRequest::complaint() const {
   if (auto wrong = name_complaint(name, "a sensitivity")) return wrong;
-  if (metrics.empty()) return "a sensitivity needs metrics";
+  if (measures.empty()) return "a sensitivity needs measures";
   return std::nullopt;
 }
 
@@ -236,12 +237,12 @@ void AttributionRequest::declare(Options<AttributionRequest>& o) {
          "factors");
   o.setting("reference", &A::reference, "a table: factor = label",
             "the level from which each factor is changed");
-  o.texts("metrics", &A::metrics, "what is attributed (shoal list measures)");
+  o.texts("measures", &A::measures, "what is attributed (shoal list measures)");
 }
 
 std::optional<std::string> AttributionRequest::complaint() const {
   if (auto wrong = name_complaint(name, "an attribution")) return wrong;
-  if (metrics.empty()) return "an attribution needs metrics";
+  if (measures.empty()) return "an attribution needs measures";
   if (!reference.is_table() || reference.table().empty()) {
     return "an attribution needs reference: the level of each factor that is changed";
   }
@@ -283,6 +284,7 @@ std::optional<std::string> Study::complaint() const {
 Study read_study(const Setting& root) {
   Study study;
   study.written = with_groups(root);
+  require_no_renamed_keys(study.written);
   read(study, study.written, "");
   if (!study.claims_file.path.empty()) {
     study.claims = read_claims(scenarios::read_toml(scenarios::resolved(study.claims_file)));

@@ -51,8 +51,8 @@ struct TableRequest {
   std::vector<std::string> groups;  ///< default: all
   Setting where;
   std::vector<std::string> rows, columns;
-  std::vector<std::string> metrics;
-  std::vector<std::string> series;  ///< instead of metrics: against time
+  std::vector<std::string> measures;
+  std::vector<std::string> series;  ///< instead of measures: against time
   double every = 0.0;               ///< of time, or of what the series stands against
   std::string against;              ///< another series; default: time
   std::vector<std::string> pool;    ///< factors whose levels are taken together
@@ -73,7 +73,7 @@ struct ComparisonRequest {
   std::vector<std::string> groups;
   Setting where;
   std::string factor, reference;
-  std::vector<std::string> metrics;
+  std::vector<std::string> measures;
   PairedTest test = PairedTest::sign_flip;
   double resolve_percent = 5.0;  ///< the difference, in percent of the reference's mean, for which
                                  ///< the number of replications is printed
@@ -88,7 +88,7 @@ struct ComparisonRequest {
 struct SensitivityRequest {
   std::string name, caption;
   std::string group;
-  std::vector<std::string> metrics;
+  std::vector<std::string> measures;
   bool convergence = true;  ///< also a table of indices against the number of base samples
   Origin origin;
 
@@ -103,7 +103,7 @@ struct AttributionRequest {
   std::string group;  ///< a grid whose factors have two levels each; default: the only one
   std::string minus;  ///< a group whose cells are subtracted, seed by seed; "" for none
   Setting reference;  ///< factor -> label: from where each is changed
-  std::vector<std::string> metrics;
+  std::vector<std::string> measures;
   Origin origin;
 
   static constexpr const char* noun = "an attribution";

@@ -125,7 +125,7 @@ void write_study(const TrialList& list, const fs::path& folder) {
   write_whole_file(folder / "study.toml", to_toml(written));
 }
 
-TrialList stored_plan(const fs::path& folder) {
+TrialList stored_list(const fs::path& folder) {
   const fs::path file = folder / "study.toml";
   std::error_code ignored;
   if (!fs::exists(file, ignored)) {

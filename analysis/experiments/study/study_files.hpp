@@ -10,6 +10,6 @@ namespace shoal::analysis {
 void write_study(const TrialList& list, const std::filesystem::path& folder);
 
 /// The study that a sweep left in a folder. Throws InputError if there is none.
-TrialList stored_plan(const std::filesystem::path& folder);
+TrialList stored_list(const std::filesystem::path& folder);
 
 }  // namespace shoal::analysis

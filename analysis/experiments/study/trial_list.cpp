@@ -14,8 +14,8 @@ namespace {
 
 // What else is said of trials, in stores, tables and exported files.
 constexpr std::array<std::string_view, 14> reserved{
-    "study_group", "replication", "seed",   "status", "reason",      "trial_id", "scenario_id",
-    "program",     "wall_s",      "metric", "time_s", sample_column, "time",     "cell"};
+    "study_group", "replication", "seed",    "status", "reason",      "trial_id", "scenario_id",
+    "program",     "wall_s",      "measure", "time_s", sample_column, "time",     "cell"};
 
 /// Whether every trial has a column of that name, which a factor would hide.
 bool is_taken(const std::string& name) {

@@ -158,7 +158,7 @@ void OpenSweep::store(const SweepTask& task, TrialOutcome outcome) {
                     .program = build_info().program,
                     .failure = std::move(outcome.failure),
                     .wall_s = outcome.wall_s,
-                    .metrics = std::move(outcome.metrics),
+                    .measures = std::move(outcome.measures),
                     .series = std::move(outcome.series)};
   for (std::size_t i = 0; i < group.columns().size(); ++i) {
     trial.factors.emplace_back(group.columns()[i], group.labels(planned.cell)[i]);

@@ -121,9 +121,9 @@ std::string trial_answer(const std::string& request) {
   forget_origins(root);
   const TrialOutcome outcome = trial_outcome(scenarios::read_scenario(root), asked.at("series"));
   Json json{{"failure", outcome.failure}, {"wall_s", outcome.wall_s}};
-  Json& metrics = json["metrics"] = Json::array();
-  for (const auto& [name, value] : outcome.metrics) {
-    metrics.push_back({name, value ? Json(*value) : Json(nullptr)});
+  Json& measures = json["measures"] = Json::array();
+  for (const auto& [name, value] : outcome.measures) {
+    measures.push_back({name, value ? Json(*value) : Json(nullptr)});
   }
   Json& series = json["series"] = Json::array();
   for (const scenarios::Series& s : outcome.series) {
@@ -138,10 +138,10 @@ TrialOutcome parsed_answer(const std::string& answer) {
   TrialOutcome outcome;
   outcome.failure = json.at("failure").get<std::string>();
   outcome.wall_s = json.at("wall_s").get<double>();
-  for (const Json& metric : json.at("metrics")) {
-    const Json& value = metric.at(1);
-    outcome.metrics.emplace_back(
-        metric.at(0).get<std::string>(),
+  for (const Json& measure : json.at("measures")) {
+    const Json& value = measure.at(1);
+    outcome.measures.emplace_back(
+        measure.at(0).get<std::string>(),
         value.is_null() ? std::nullopt : std::optional(value.get<double>()));
   }
   for (const Json& s : json.at("series")) {

@@ -48,7 +48,7 @@ def sweep(study: str | os.PathLike[str] | Mapping[str, Any],
 
 def trials(folder: str | os.PathLike[str]) -> pandas.DataFrame:
     """The trials of a study, a row for each: group, factors, replication, seed, status, reason (why it
-    failed), and every metric with its unit in its name."""
+    failed), and every measure with its unit in its name."""
     import pandas
 
     return pandas.read_csv(io.StringIO(_shoal.trials_csv(os.fspath(folder))),
@@ -56,7 +56,7 @@ def trials(folder: str | os.PathLike[str]) -> pandas.DataFrame:
 
 
 def study_dataset(folder: str | os.PathLike[str], group: str | None = None) -> xarray.Dataset:
-    """Metrics and stored series of a study, with its factors as dimensions. group: of the study, where
+    """Measures and stored series of a study, with its factors as dimensions. group: of the study, where
     it has named ones."""
     import xarray
 

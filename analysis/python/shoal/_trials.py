@@ -75,7 +75,7 @@ def run(scenario: str | os.PathLike[str] | Mapping[str, Any],
         folder = pathlib.Path(out if out is not None else temporary)
         summary = _shoal.run(plain(scenario), changes, name_of(scenario, "scenario"), str(folder),
                              threads, record, report, progress)
-        return Run(_dataset(folder), json.loads(summary)["metrics"])
+        return Run(_dataset(folder), json.loads(summary)["measures"])
 
 
 def _dataset(folder: pathlib.Path) -> xarray.Dataset | None:

@@ -8,7 +8,7 @@ import matplotlib.ticker
 import names
 import panels
 import style
-from long_form import by_metric, without
+from long_form import by_measure, without
 
 FEW = 3  # different numbers that make a curve of a factor
 MOST = len(style.COLOURS)  # curves of one axes
@@ -25,7 +25,7 @@ def axis_of(numbers, request):
         levels = {number.levels.get(factor, "") for number in known}
         if len(levels) < FEW or not all(map(names.is_number, levels)):
             continue
-        curves = {(number.metric, without(number, {factor})) for number in known}
+        curves = {(number.measure, without(number, {factor})) for number in known}
         if 2 * len(curves) <= len(known):
             return factor
     return None
@@ -54,20 +54,20 @@ def parted(known, against, name):
                          f"{name}")
 
 
-def curves(numbers, wording, against, name, of_metric):
-    """One metric below another, called as `of_metric` says; in each panel the curves that differ in
+def curves(numbers, wording, against, name, of_measure):
+    """One measure below another, called as `of_measure` says; in each panel the curves that differ in
     what panels do not."""
-    metrics = by_metric(numbers)
+    measures = by_measure(numbers)
     known = [number for number in numbers if number.known]
     facets = parted(known, against, name)
     shown = list(dict.fromkeys(number.key(facets) for number in known))
     keys = list(dict.fromkeys(without(number, {against, *facets}) for number in known))
     across = panels.across(len(shown))
     down = -(-len(shown) // across)
-    figure, axes = panels.grid(len(metrics) * down * across, across, panels.panel_height(across),
+    figure, axes = panels.grid(len(measures) * down * across, across, panels.panel_height(across),
                                sharex=True)
     handles = {}
-    for row, (metric, some) in enumerate(metrics.items()):
+    for row, (measure, some) in enumerate(measures.items()):
         block = axes[row * down * across:(row + 1) * down * across]
         for k, (ax, panel) in enumerate(zip(block, shown)):
             if k:
@@ -82,8 +82,8 @@ def curves(numbers, wording, against, name, of_metric):
                 ax.axhline(0, color="black", linewidth=0.5, zorder=0)
             ax.set_title(names.sentence(wording.levels(panel, full=True)))
             if k % across == 0:
-                ax.set_ylabel(of_metric(metric))
-            lowest = row + 1 == len(metrics) and k + across >= len(shown)
+                ax.set_ylabel(of_measure(measure))
+            lowest = row + 1 == len(measures) and k + across >= len(shown)
             ax.tick_params(labelleft=k % across == 0, labelbottom=lowest)
             if lowest:
                 ax.set_xlabel(wording.axis(against))

@@ -15,7 +15,7 @@ UNNAMED = ""  # the factors that columns show, where their names cannot be told 
 class Number:
     """A number of a table, and the trials behind it."""
 
-    metric: str
+    measure: str
     levels: dict  # factor -> level: those of rows, then those of columns
     value: float
     low: float
@@ -31,49 +31,49 @@ class Number:
 
 
 def numbers_of(table, request):
-    """Row by row. Of a metric that stands in the rows, the columns are its kinds of numbers."""
-    in_rows = "metric" in table.labels
+    """Row by row. Of a measure that stands in the rows, the columns are its kinds of numbers."""
+    in_rows = "measure" in table.labels
     places = {} if in_rows else columns_of(request)
     found = []
     for column in table.numbers:
-        metric, levels = places.get(column) or guessed(column, request)
+        measure, levels = places.get(column) or guessed(column, request)
         if in_rows:
-            metric, levels = "", {UNNAMED: column} if len(table.numbers) > 1 else {}
+            measure, levels = "", {UNNAMED: column} if len(table.numbers) > 1 else {}
         values, trials = table.column(column), table.each(column)
-        found.append([(row.get("metric", metric), levels, value, low, high, each)
+        found.append([(row.get("measure", measure), levels, value, low, high, each)
                       for row, value, low, high, each
                       in zip(table.rows, values, *table.bounds(column), trials)])
     numbers = []
     for row, across in zip(table.rows, zip(*found)):
-        own = {table.factor(label): row[label] for label in table.labels if label != "metric"}
-        numbers += [Number(metric, {**own, **levels}, *rest) for metric, levels, *rest in across]
+        own = {table.factor(label): row[label] for label in table.labels if label != "measure"}
+        numbers += [Number(measure, {**own, **levels}, *rest) for measure, levels, *rest in across]
     return numbers
 
 
 def columns_of(request):
-    """column -> (metric, levels), of a request that names its metrics and a study that lists its
+    """column -> (measure, levels), of a request that names its measures and a study that lists its
     levels."""
-    metrics = request.get("metrics") or request.get("series") or []
+    measures = request.get("measures") or request.get("series") or []
     factors = request.get("columns", [])
     levels = [request.get("factors", {}).get(factor, ([], ""))[0] for factor in factors]
-    return {"_".join([*some, metric]): (metric, dict(zip(factors, some)))
-            for some in itertools.product(*levels) for metric in metrics}
+    return {"_".join([*some, measure]): (measure, dict(zip(factors, some)))
+            for some in itertools.product(*levels) for measure in measures}
 
 
 def guessed(column, request):
-    """(metric, levels) of a column that is not among those: its metric is known by its end."""
-    metrics = request.get("metrics") or request.get("series") or []
-    metric = next((m for m in sorted(metrics, key=len, reverse=True) if column.endswith(m)), column)
-    level = column.removesuffix(metric).strip("_")
-    return metric, {UNNAMED: level} if level else {}
+    """(measure, levels) of a column that is not among those: its measure is known by its end."""
+    measures = request.get("measures") or request.get("series") or []
+    measure = next((m for m in sorted(measures, key=len, reverse=True) if column.endswith(m)), column)
+    level = column.removesuffix(measure).strip("_")
+    return measure, {UNNAMED: level} if level else {}
 
 
-def by_metric(numbers):
-    """metric -> its numbers; of metrics that have any value."""
+def by_measure(numbers):
+    """measure -> its numbers; of measures that have any value."""
     found = {}
     for number in numbers:
-        found.setdefault(number.metric, []).append(number)
-    return {metric: some for metric, some in found.items() if any(n.known for n in some)}
+        found.setdefault(number.measure, []).append(number)
+    return {measure: some for measure, some in found.items() if any(n.known for n in some)}
 
 
 def without(number, factors):
@@ -82,7 +82,7 @@ def without(number, factors):
 
 
 class Wording:
-    """What a figure calls the factors, levels and metrics of a request."""
+    """What a figure calls the factors, levels and measures of a request."""
 
     def __init__(self, request):
         self.request = request
@@ -113,36 +113,36 @@ class Wording:
         texts = [self.level(*part, full) for part in key if part[1]]
         return ", ".join(texts) or ("-" if any(factor != UNNAMED for factor, _ in key) else "")
 
-    def metric(self, metric):
+    def measure(self, measure):
         """Of a comparison, that it is a difference, and from what."""
-        text, unit = self.metric_parts(metric)
+        text, unit = self.measure_parts(measure)
         if self.is_difference:
             reference = self.level(self.request["factor"], label_of(self.request["reference"]),
                                    full=True)
             text = f"{text}: difference from {reference}"
         return names.sentence(names.with_unit(text, unit))
 
-    def total(self, metric):
-        return names.sentence(f"total index of {self.metric_parts(metric)[0]}")
+    def total(self, measure):
+        return names.sentence(f"total index of {self.measure_parts(measure)[0]}")
 
-    def variance(self, metric):
-        return names.sentence(f"share of the variance of {self.metric_parts(metric)[0]}")
+    def variance(self, measure):
+        return names.sentence(f"share of the variance of {self.measure_parts(measure)[0]}")
 
-    def effect(self, metric):
-        text, unit = self.metric_parts(metric)
+    def effect(self, measure):
+        text, unit = self.measure_parts(measure)
         return names.sentence(names.with_unit(f"effect on {text}", unit))
 
-    def change(self, metric):
+    def change(self, measure):
         """What is attributed may be how much more there is than in another group."""
-        text, unit = self.metric_parts(metric)
+        text, unit = self.measure_parts(measure)
         minus = self.request.get("minus", "")
         beyond = f" beyond that of {names.plain(minus)}" if minus else ""
         return names.sentence(names.with_unit(f"effect on {text}{beyond}", unit))
 
-    def metric_parts(self, metric):
-        """(words, unit) of a metric as a table names it: by its name, or in words with its unit."""
-        if metric.endswith(")") and " (" in metric:
-            text, _, unit = metric.removesuffix(")").rpartition(" (")
+    def measure_parts(self, measure):
+        """(words, unit) of a measure as a table names it: by its name, or in words with its unit."""
+        if measure.endswith(")") and " (" in measure:
+            text, _, unit = measure.removesuffix(")").rpartition(" (")
             return names.plain(text), unit
-        asked = [m for m in self.request.get("metrics", []) if names.parted(m)[0] == metric]
-        return names.parted(asked[0] if asked else metric)
+        asked = [m for m in self.request.get("measures", []) if names.parted(m)[0] == measure]
+        return names.parted(asked[0] if asked else measure)

@@ -13,14 +13,14 @@ def figure_of(table, request):
     if not table.rows or not table.numbers:
         return None
     wording = Wording(request)
-    if {"metric", "factor"} <= set(table.labels) and not wording.is_difference:
+    if {"measure", "factor"} <= set(table.labels) and not wording.is_difference:
         return of_indices(table, wording)
     numbers = numbers_of(table, request)
     if not any(number.known for number in numbers):
         return None
     against = curves.axis_of(numbers, request)
     if against:
-        return curves.curves(numbers, wording, against, table.name, wording.metric)
+        return curves.curves(numbers, wording, against, table.name, wording.measure)
     return rows.points(numbers, wording, table.name)
 
 
@@ -49,7 +49,7 @@ def change(row):
 def convergence(table, wording):
     """Total indices against the number of samples."""
     total = table.numbers[-1]
-    numbers = [Number(row["metric"], {UNNAMED: row["factor"], "base_samples": row["base_samples"]},
+    numbers = [Number(row["measure"], {UNNAMED: row["factor"], "base_samples": row["base_samples"]},
                       value, low, high, [])
                for row, value, low, high
                in zip(table.rows, table.column(total), *table.bounds(total))]

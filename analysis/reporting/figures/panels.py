@@ -5,7 +5,7 @@ import math
 import matplotlib.pyplot as plt
 import style
 
-MOST = 12  # panels of one metric: a page of them
+MOST = 12  # panels of one measure: a page of them
 
 
 class TooMuch(Exception):

@@ -9,7 +9,7 @@ import matplotlib.pyplot as plt
 import names
 import panels
 import style
-from long_form import by_metric
+from long_form import by_measure
 
 MOST = 60  # rows of one panel: a page of them
 LONG = 12  # rows that are worth the room of a second panel beside them
@@ -18,17 +18,17 @@ MARK_IN = 0.055
 BELOW_IN = 0.45  # ticks and their axis' name
 
 
-def panel_grid(metrics, rows, series):
-    """Axes for these metrics, below or beside one another, with named rows that have room for their
+def panel_grid(measures, rows, series):
+    """Axes for these measures, below or beside one another, with named rows that have room for their
     names and for so many marks each."""
     width = plt.rcParams["figure.figsize"][0]
     beside = 3 if style.wide() else 2 if len(rows) > LONG else 1
-    across = min(len(metrics), beside)
+    across = min(len(measures), beside)
     size = plt.rcParams["ytick.labelsize"]
     texts = [fitting.wrapped(row, (0.38 if style.wide() else 0.42) * width, size) for row in rows]
     lines = max(text.count("\n") + 1 for text in texts)
     height = len(rows) * max(lines * LINE_IN, series * MARK_IN) + 0.05
-    figure, axes = panels.grid(len(metrics), across, max(height, 0.5) + BELOW_IN, sharey=True)
+    figure, axes = panels.grid(len(measures), across, max(height, 0.5) + BELOW_IN, sharey=True)
     for k, ax in enumerate(axes):
         ax.set_yticks(range(len(texts)), texts)
         ax.set_ylim(len(texts) - 0.5, -0.5)
@@ -73,10 +73,10 @@ def points(numbers, wording, name):
     numbers = [number for number in numbers if number.known]
     across = apart(numbers, wording.columns)
     down = others(numbers[0].levels, across)
-    metrics, rows, series = by_metric(numbers), keys(numbers, down), keys(numbers, across)
+    measures, rows, series = by_measure(numbers), keys(numbers, down), keys(numbers, across)
     require_few(len(rows), name)
-    figure, axes = panel_grid(metrics, [wording.levels(row) for row in rows], len(series))
-    for ax, (metric, some) in zip(axes, metrics.items()):
+    figure, axes = panel_grid(measures, [wording.levels(row) for row in rows], len(series))
+    for ax, (measure, some) in zip(axes, measures.items()):
         handles = []
         for k, key in enumerate(series):
             own = [number for number in some if number.key(across) == key]
@@ -84,7 +84,7 @@ def points(numbers, wording, name):
             handles.append(marks(ax, own, places, k, wording.levels(key)))
         if wording.is_difference:
             ax.axvline(0, color="black", linewidth=0.5, zorder=0)
-        ax.set_xlabel(wording.metric(metric))
+        ax.set_xlabel(wording.measure(measure))
         ax.grid(axis="y", color="#E8E8E8", linewidth=0.5)
     if len(series) > 1:
         legends.explain(figure, handles, series, wording)
@@ -109,19 +109,19 @@ def bars(table, wording, axis, name_of):
     """First-order and total indices, those of pairs, Morris' mu* and sigma, or shares of a
     difference, with their intervals."""
     values = {column: table.column(column) for column in table.numbers}
-    metrics = list(dict.fromkeys(row["metric"] for row in table.rows))
-    inside = {m: [i for i, row in enumerate(table.rows) if row["metric"] == m] for m in metrics}
+    measures = list(dict.fromkeys(row["measure"] for row in table.rows))
+    inside = {m: [i for i, row in enumerate(table.rows) if row["measure"] == m] for m in measures}
     shown = [c for c in table.numbers if not all(map(math.isnan, values[c]))]
-    inside = {metric: [i for i in some if not all(math.isnan(values[c][i]) for c in shown)]
-              for metric, some in inside.items()}
-    inside = {metric: some for metric, some in inside.items() if some}
+    inside = {measure: [i for i in some if not all(math.isnan(values[c][i]) for c in shown)]
+              for measure, some in inside.items()}
+    inside = {measure: some for measure, some in inside.items() if some}
     if not inside:
         return None
     texts = list(dict.fromkeys(name_of(table.rows[i]) for some in inside.values() for i in some))
     require_few(len(texts), table.name)
     figure, axes = panel_grid(inside, texts, 2 * len(shown))
     handles = []
-    for ax, (metric, some) in zip(axes, inside.items()):
+    for ax, (measure, some) in zip(axes, inside.items()):
         for k, column in enumerate(shown):
             low, high = table.bounds(column)
             own = [i for i in some if not math.isnan(values[column][i])]
@@ -131,7 +131,7 @@ def bars(table, wording, axis, name_of):
             ax.hlines(places, [low[i] for i in own], [high[i] for i in own], color="black",
                       linewidth=0.8)
         ax.axvline(0, color="black", linewidth=0.5)
-        ax.set_xlabel(axis(metric))
+        ax.set_xlabel(axis(measure))
     if len(shown) > 1:
         legends.legend_above(figure, handles[:len(shown)])
     return figure

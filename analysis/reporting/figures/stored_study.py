@@ -19,7 +19,7 @@ class StudyTable:
     def __init__(self, name, caption, rows):
         self.name, self.caption, self.rows = name, caption, rows
         header = list(rows[0]) if rows else []
-        known = INDICES if {"metric", "factor"} <= set(header) else set()
+        known = INDICES if {"measure", "factor"} <= set(header) else set()
         self.numbers = [c for c in header
                         if c + "_n" in header or c + "_low" in header or c in known]
         # What says of which row it is stands before all numbers.

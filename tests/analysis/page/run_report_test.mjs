@@ -515,7 +515,7 @@ test("measures and charts hold both runs", async () => {
   assert.notEqual(labels[0], labels[1]);
   assert.deepEqual(rows[0].filter((name, k) => k === 0 || k > 2), ["Measure", "Unit", "Meaning"]);
   const summaries = ["losses", "clutter"].map(
-    name => JSON.parse(readFileSync(join(folder, name, "summary.json"), "utf8")).metrics);
+    name => JSON.parse(readFileSync(join(folder, name, "summary.json"), "utf8")).measures);
   let compared = 0;
   for (const [name, ...values] of rows.slice(1)) {
     summaries.forEach((summary, run) => {

@@ -23,7 +23,7 @@ values = ["rigid_registration", "pairwise_referencing"]
 name = "energy"
 caption = "Energy & more"
 rows = ["behaviour"]
-metrics = ["energy_mean_wh", "quality_final_m"]
+measures = ["energy_mean_wh", "quality_final_m"]
 [[table]]
 name = "against_time"
 columns = ["behaviour"]
@@ -34,18 +34,18 @@ const CLAIMS = `[[claim]]
 section = "1"
 says = "Rigid registration spends less than 0 Wh"
 where = { behaviour = "rigid_registration" }
-metric = "energy_mean_wh"
+measure = "energy_mean_wh"
 test = { kind = "between", between = { at_least = -2, at_most = -1 } }
 [claim.cause]
 says = "energy cannot be < 0"
-metric = "energy_mean_wh"
+measure = "energy_mean_wh"
 where = { behaviour = "rigid_registration" }
 test = { kind = "each_between", each_between = { at_least = 0 } }
 [[claim]]
 section = "2"
 says = "Rigid registration spends something"
 where = { behaviour = "rigid_registration" }
-metric = "energy_mean_wh"
+measure = "energy_mean_wh"
 test = { kind = "between", between = { at_least = 0, at_most = 100 } }
 `;
 
@@ -90,7 +90,7 @@ test("claims can be chosen by their verdict", async () => {
 test("shows every trial as a point beside mean and interval", async () => {
   const page = await open(browser, report);
   const charts = page.locator(".points");
-  assert.equal(await charts.count(), 2, "a chart for each metric");
+  assert.equal(await charts.count(), 2, "a chart for each measure");
   const energy = charts.first();
   assert.equal(await energy.locator(".strip").count(), 2, "a row for each behaviour");
   assert.equal(await energy.locator("circle.trial").count(), 2 * 3);

@@ -34,7 +34,7 @@ struct WithSmallestEffect {
 template <class T>
 void declare_smallest_effect(Options<T>& o) {
   o.number("smallest_effect", &T::smallest_effect, "", at_least(0),
-           "the least difference that matters, in the unit of the metric");
+           "the least difference that matters, in the unit of the measure");
   o.number("smallest_effect_percent", &T::smallest_effect_percent, "%", at_least(0),
            "the same, as a share of the other's value");
 }
@@ -48,7 +48,7 @@ struct WithTolerance {
 template <class T>
 void declare_tolerance(Options<T>& o) {
   o.number("within", &T::within, "", at_least(0),
-           "how far apart counts as alike, in the unit of the metric");
+           "how far apart counts as alike, in the unit of the measure");
   o.number("within_percent", &T::within_percent, "%", at_least(0),
            "the same, as a share of the other's value");
 }
