@@ -40,6 +40,10 @@ OptionPlace locate(const Schema& root, const std::string& key, const Origin& ori
     choice = option->choice ? option : nullptr;
     if (option->table) {
       schema = option->table;
+    } else if (option->entry && i + 2 == parts.size()) {
+      place.key += "." + std::string(parts[++i]);
+      place.option = option->entry;
+      place.fallback = nullptr;
     } else if (!choice && i + 1 < parts.size()) {
       throw InputError(origin, place.key + " is " + option->type + ", so it has no \"" +
                                    std::string(parts[i + 1]) + '"');

@@ -11,7 +11,7 @@ namespace shoal {
 struct OptionPlace {
   std::string key;
   const Option* option = nullptr;      ///< the last option on the way
-  const Setting* fallback = nullptr;   ///< its default
+  const Setting* fallback = nullptr;   ///< its default; nullptr: has none
   const MemberInfo* member = nullptr;  ///< set if the key ends with a member of a choice
   bool is_kind = false;                ///< the key ends with `.kind`, behind an option that is one
 };

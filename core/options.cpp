@@ -126,5 +126,26 @@ Eigen::Vector2d as_point(const Option& option, const Setting& value, const std::
   return {as_number(option, (*pair)[0], key), as_number(option, (*pair)[1], key)};
 }
 
+NamedNumbers as_named_numbers(const Option& option, const Setting& value, const std::string& key) {
+  if (!value.is_table()) refuse_type(option, value, key);
+  NamedNumbers numbers;
+  for (const auto& [name, number] : value.table()) {
+    numbers.emplace_back(name, as_number(named_number(), number, dotted(key, name)));
+  }
+  return numbers;
+}
+
+Setting::Table written(const NamedNumbers& numbers) {
+  Setting::Table table;
+  for (const auto& [name, number] : numbers) table.emplace_back(name, plain(number));
+  return table;
+}
+
+const Option& named_number() {
+  static const Option option{
+      .name = "", .meaning = "a number under a name of your own", .type = "a number"};
+  return option;
+}
+
 }  // namespace detail
 }  // namespace shoal

@@ -44,6 +44,9 @@ struct FilePath {
   Origin origin;  ///< where it was named, for messages
 };
 
+/// Numbers under names that a user chooses, in the order of writing.
+using NamedNumbers = std::vector<std::pair<std::string, double>>;
+
 /// One declared option of a struct, with the types erased.
 ///
 /// From it follow reading with line-numbered errors, `--set`, `shoal describe` and the resolved
@@ -56,6 +59,7 @@ struct Option {
   bool is_file = false;  ///< the value names a file
   Range range;
   const Schema* table = nullptr;         ///< set for a nested struct
+  const Option* entry = nullptr;         ///< set for a table of named numbers: what each of them is
   const RegistryBase* choice = nullptr;  ///< set for a member of a family
   std::function<void(void* object, const Setting&, const std::string& key)> read;
   std::function<Setting(const void* object)> write;
@@ -107,6 +111,8 @@ class Options {
                std::string meaning);
   void points(std::string name, std::vector<Eigen::Vector2d> T::*member, std::string meaning,
               std::string unit = "m");
+  /// `name = { a = 1, b = 0.5 }`, or one by one: `name.a = 1`.
+  void named_numbers(std::string name, NamedNumbers T::*member, std::string meaning);
 
   /// One of a few words, each with its enumerator.
   template <class Enum>

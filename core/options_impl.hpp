@@ -19,6 +19,10 @@ std::int64_t as_integer(const Option& option, const Setting& value, const std::s
 const std::string& as_text(const Option& option, const Setting& value, const std::string& key);
 FilePath as_file(const Option& option, const Setting& value, const std::string& key);
 Eigen::Vector2d as_point(const Option& option, const Setting& value, const std::string& key);
+NamedNumbers as_named_numbers(const Option& option, const Setting& value, const std::string& key);
+Setting::Table written(const NamedNumbers& numbers);
+/// What each of named numbers is.
+const Option& named_number();
 const Setting::List& as_list(const Option& option, const Setting& value, const std::string& key);
 
 template <class Value>
@@ -134,6 +138,15 @@ void Options<T>::numbers(std::string name, std::vector<double> T::*member, std::
         for (const double number : numbers) list.push_back(detail::plain(number));
         return list;
       });
+}
+
+template <class T>
+void Options<T>::named_numbers(std::string name, NamedNumbers T::*member, std::string meaning) {
+  add({.name = std::move(name),
+       .meaning = std::move(meaning),
+       .type = "a table of numbers",
+       .entry = &detail::named_number()},
+      member, detail::as_named_numbers, detail::written);
 }
 
 template <class T>

@@ -12,8 +12,7 @@ std::array<std::uint64_t, 2> RandomStreams::bits(Purpose purpose, std::uint32_t 
   using Generator = r123::Philox4x32;
   const auto low = [](std::uint64_t word) { return static_cast<std::uint32_t>(word); };
   const auto high = [](std::uint64_t word) { return static_cast<std::uint32_t>(word >> 32); };
-  const Generator::ctr_type counter{
-      {low(index), high(index), vehicle, purpose.number()}};
+  const Generator::ctr_type counter{{low(index), high(index), vehicle, purpose.number()}};
   const Generator::key_type key{{low(seed_), high(seed_)}};
   const Generator::ctr_type words = Generator{}(counter, key);
   const auto joined = [](std::uint32_t a, std::uint32_t b) {

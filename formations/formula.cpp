@@ -46,8 +46,8 @@ std::vector<double> sampled_distances(double from, double to, double s) {
 
 }  // namespace
 
-Formula::Formula(std::string_view text) {
-  const formulas::Tree tree = formulas::parsed(text);
+Formula::Formula(std::string_view text, const NamedNumbers& parameters) {
+  const formulas::Tree tree = formulas::parsed(text, parameters);
   if (std::ranges::none_of(tree.nodes, [](const formulas::Tree::Node& n) {
         return n.operation == formulas::Operation::distance;
       })) {

@@ -11,12 +11,13 @@ namespace shoal::formations {
 
 /// A function of the distance r and the separation s (m) that was written as text.
 ///
-/// Numbers, r, s, pi, + - * / ^, brackets, and sqrt, exp, log (natural), sin, cos, tan, asin, acos,
-/// atan, sinh, cosh, tanh, abs, min, max, pow. Evaluation is thread-safe and allocates nothing.
+/// Numbers, r, s, pi, parameters, + - * / ^, brackets, and sqrt, exp, log (natural), sin, cos, tan,
+/// asin, acos, atan, sinh, cosh, tanh, abs, min, max, pow. Evaluation is thread-safe and allocates
+/// nothing.
 class Formula {
  public:
   /// Throws InputError with one sentence that says what is wrong, and where.
-  explicit Formula(std::string_view text);
+  explicit Formula(std::string_view text, const NamedNumbers& parameters = {});
 
   double value(double r, double s) const { return for_(s).value(r, s); }
   /// The derivatives are symbolic.

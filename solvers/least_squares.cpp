@@ -38,9 +38,13 @@ class SumOfLosses final : public Objective {
     double cost = 0.0, r[most];
     Vector slope = Vector::Zero(n);
     Matrix curvature = Matrix::Zero(hessian ? n : 0, hessian ? n : 0);
-    Jacobian J(m, n);
-    Eigen::Matrix<double, Eigen::Dynamic, 1, 0, all, 1> curvatures(hessian ? m * n * n : 0);
+    Jacobian J;
+    Eigen::Matrix<double, Eigen::Dynamic, 1, 0, all, 1> curvatures;
     for (int b = 0; b < residuals.blocks(); ++b) {
+      const std::span<const int> own = residuals.unknowns_of(b);
+      const std::ptrdiff_t k_own = own.empty() ? n : static_cast<std::ptrdiff_t>(own.size());
+      J.resize(m, k_own);
+      curvatures.resize(hessian ? m * k_own * k_own : 0);
       residuals.evaluate(b, x, r, gradient || hessian ? J.data() : nullptr,
                          hessian ? curvatures.data() : nullptr);
       double squared = 0.0;
@@ -53,13 +57,23 @@ class SumOfLosses final : public Objective {
       const Vector pull =
           J.transpose() *
           Eigen::Map<const Eigen::Matrix<double, Eigen::Dynamic, 1, 0, most, 1>>(r, m);
-      slope += 2.0 * weight * loss.slope * pull;
-      if (!hessian) continue;
-      curvature += 2.0 * weight * loss.slope * (J.transpose() * J);
-      curvature += 4.0 * weight * loss.curvature * (pull * pull.transpose());
-      for (std::ptrdiff_t k = 0; k < m; ++k) {
-        curvature += 2.0 * weight * loss.slope * r[k] *
-                     Eigen::Map<const Matrix>(curvatures.data() + k * n * n, n, n);
+      const auto add = [&](auto&& slope_here, auto&& curvature_here) {
+        slope_here += 2.0 * weight * loss.slope * pull;
+        if (!hessian) return;
+        curvature_here += 2.0 * weight * loss.slope * (J.transpose() * J);
+        curvature_here += 4.0 * weight * loss.curvature * (pull * pull.transpose());
+        for (std::ptrdiff_t k = 0; k < m; ++k) {
+          curvature_here +=
+              2.0 * weight * loss.slope * r[k] *
+              Eigen::Map<const Matrix>(curvatures.data() + k * k_own * k_own, k_own, k_own);
+        }
+      };
+      if (own.empty()) {
+        add(slope, curvature);
+      } else if (hessian) {
+        add(slope(own), curvature(own, own));
+      } else {
+        add(slope(own), curvature);
       }
     }
     if (gradient) Eigen::Map<Vector>(gradient, n) = slope;

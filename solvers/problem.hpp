@@ -8,6 +8,7 @@
 #include <type_traits>
 #include <utility>
 
+#include "shoal/solvers/trace.hpp"
 #include "shoal/solvers/unknowns.hpp"
 #include "shoal/solvers/vector_function.hpp"
 
@@ -72,6 +73,7 @@ class Problem {
   std::shared_ptr<const VectorFunction> equalities;   ///< h(x) = 0; nullptr: none
   std::shared_ptr<const LeastSquares> least_squares;  ///< of the same cost; nullptr: has none
   std::optional<double> best_known;                   ///< the lowest cost known, for tests
+  Trace* trace = nullptr;  ///< borrowed: where a solve notes its progress
 
  private:
   void adopt(const Objective& objective);

@@ -76,6 +76,11 @@ void print_key(const Schema& schema, const std::string& key) {
   const OptionPlace place = locate(schema, key);
   if (place.is_kind) return print_choice(*place.option, *place.fallback, place.key);
   if (place.member) return print_member(*place.option->choice, *place.member, place.key);
+  if (!place.fallback) {  // one of the numbers that a user names
+    fmt::print("{}\n    {}\n    takes {}\n", place.key, place.option->meaning,
+               accepted(*place.option));
+    return;
+  }
   print_entry(*place.option, *place.fallback, place.key);
 }
 

@@ -44,10 +44,30 @@ bool is_digit(char c) {
   return c >= '0' && c <= '9';
 }
 
+/// Throws InputError unless the names are words that mean nothing else, each once.
+void require_own_names(const NamedNumbers& numbers) {
+  std::vector<std::string_view> known{"r", "s", "pi"};
+  for (const Function& function : functions) known.push_back(function.name);
+  for (const auto& [name, value] : numbers) {
+    const bool word = !name.empty() && is_letter(name.front()) &&
+                      std::ranges::all_of(name, [](char c) { return is_letter(c) || is_digit(c); });
+    if (!word) {
+      throw InputError("a parameter is named by letters, digits and _, a letter first; not \"" +
+                       name + '"');
+    }
+    if (std::ranges::find(known, name) != known.end()) {
+      throw InputError("the parameter " + name + " needs another name: " + name +
+                       " has a meaning already");
+    }
+    known.push_back(name);
+  }
+}
+
 /// Recursive descent, one function a level of precedence.
 class Parser {
  public:
-  explicit Parser(std::string_view text) : text_(text) {}
+  Parser(std::string_view text, const NamedNumbers& named_numbers)
+      : text_(text), named_numbers_(named_numbers) {}
 
   Tree parse() {
     if (text_.size() > longest_text) {
@@ -58,6 +78,10 @@ class Parser {
     if (!at_end()) {
       fail(text_[at_] == ')' ? "there is a ')' too many"
                              : "an operator is missing before " + rest());
+    }
+    for (std::size_t k = 0; k < named_numbers_.size(); ++k) {
+      if (!occurs_[k])
+        throw InputError("it does not have the parameter " + named_numbers_[k].first);
     }
     return std::move(tree_);
   }
@@ -128,12 +152,18 @@ class Parser {
     if (name == "r") return leaf(Operation::distance);
     if (name == "s") return leaf(Operation::separation);
     if (name == "pi") return leaf(Operation::number, std::numbers::pi);
+    for (std::size_t k = 0; k < named_numbers_.size(); ++k) {
+      if (name != named_numbers_[k].first) continue;
+      occurs_[k] = true;
+      return leaf(Operation::number, named_numbers_[k].second);
+    }
     at_ = where;
     if (std::ranges::find(functions, name, &Function::name) != functions.end()) {
       fail(name + " is a function; write " + name + "(...)");
     }
-    fail("there is no symbol \"" + name +
-         "\"; known are r (distance, m), s (separation, m) and pi");
+    std::string known = "r (distance, m), s (separation, m)";
+    for (const auto& [own, value] : named_numbers_) known += ", " + own;
+    fail("there is no symbol \"" + name + "\"; known are " + known + " and pi");
   }
 
   int call(const std::string& name, std::size_t where) {
@@ -230,6 +260,8 @@ class Parser {
   };
 
   std::string_view text_;
+  const NamedNumbers& named_numbers_;
+  std::vector<bool> occurs_ = std::vector<bool>(named_numbers_.size());
   std::size_t at_ = 0;
   int depth_ = 0;
   Tree tree_;
@@ -237,9 +269,10 @@ class Parser {
 
 }  // namespace
 
-Tree parsed(std::string_view text) {
+Tree parsed(std::string_view text, const NamedNumbers& named_numbers) {
   if (trimmed(text).empty()) throw InputError("it is empty");
-  return Parser(text).parse();
+  require_own_names(named_numbers);
+  return Parser(text, named_numbers).parse();
 }
 
 }  // namespace shoal::formations::formulas

@@ -3,6 +3,7 @@
 #include <string_view>
 #include <vector>
 
+#include "shoal/core/options.hpp"
 #include "shoal/formations/formulas/operation.hpp"
 
 namespace shoal::formations::formulas {
@@ -20,8 +21,9 @@ struct Tree {
 };
 
 /// Reads `s^3/(2*r^2) + r - 3*s`: numbers, r, s, pi, + - * / ^ (from the right: 2^3^2 = 2^9, and
-/// -2^2 = -4), brackets and functions (sqrt, exp, log ...). Throws InputError with one sentence
-/// that says what is wrong and at which character. Time and depth are bounded whatever the text.
-Tree parsed(std::string_view text);
+/// -2^2 = -4), brackets, functions (sqrt, exp, log ...), and names that stand for numbers. Throws
+/// InputError with one sentence that says what is wrong and at which character, or which name does
+/// not occur. Time and depth are bounded whatever the text.
+Tree parsed(std::string_view text, const NamedNumbers& named_numbers = {});
 
 }  // namespace shoal::formations::formulas

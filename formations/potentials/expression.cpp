@@ -16,7 +16,7 @@ std::string quoted(const std::string& formula) {
 class ExpressionPotential final : public Potential {
  public:
   explicit ExpressionPotential(const Expression& written)
-      : written_(written), formula_(written.formula) {}
+      : written_(written), formula_(written.formula, written.parameters) {}
 
   double value(double r, double s) const override { return formula_.value(r, s); }
   RadialValue derivatives(double r, double s) const override { return formula_.derivatives(r, s); }
@@ -47,7 +47,7 @@ const Register<Potential, Expression> registered{
 std::optional<std::string> Expression::complaint() const {
   if (!(from_m < to_m)) return "from_m must be below to_m";
   try {
-    Formula{formula};
+    Formula{formula, parameters};
   } catch (const InputError& error) {
     return quoted(formula) + error.what();
   }
@@ -58,6 +58,8 @@ void Expression::declare(Options<Expression>& o) {
   o.text("formula", &Expression::formula,
          "cost of the distance r and the separation s, in metres: + - * / ^ and sqrt exp log sin "
          "cos tan asin acos atan sinh cosh tanh abs min max pow pi");
+  o.named_numbers("parameters", &Expression::parameters,
+                  "values of the names in the formula; a study's factor sweeps parameters.NAME");
   o.number("from_m", &Expression::from_m, "m", above(0),
            "smallest distance at which the formula and two derivatives must be finite");
   o.number("to_m", &Expression::to_m, "m", above(0), "largest such distance");

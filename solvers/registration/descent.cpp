@@ -184,8 +184,9 @@ struct Descended {
 
 template <int N>
 Descended descend(const Solver& solver, const Centred& points, const Transform2& first,
-                  const Loss* loss) {
-  const Problem problem = pose<N>(points, first, loss);
+                  const RegistrationProblem& registration) {
+  Problem problem = pose<N>(points, first, registration.loss);
+  problem.trace = registration.trace;
   Descended end{first, {}};
   // Some backends end the process where they should say so.
   end.solution.status = Status::diverged;
@@ -208,10 +209,10 @@ Descended descend(const Solver& solver, const Centred& points, const Transform2&
 template <int N>
 Descended lowest(const Solver& solver, const Centred& points, const Transform2& of_squares,
                  const RegistrationProblem& problem) {
-  Descended best = descend<N>(solver, points, of_squares, problem.loss);
+  Descended best = descend<N>(solver, points, of_squares, problem);
   if (problem.is_square()) return best;
   const Transform2 agreed = agreed_start(points, *problem.loss, N == 3);
-  Descended other = descend<N>(solver, points, agreed, problem.loss);
+  Descended other = descend<N>(solver, points, agreed, problem);
   const int evaluations = best.solution.evaluations + other.solution.evaluations;
   // Of two ways to the same minimum the rounding of the cost must not choose.
   constexpr double rounding = 1e-12;

@@ -11,6 +11,7 @@
 #include "shoal/core/transform.hpp"
 #include "shoal/solvers/answer.hpp"
 #include "shoal/solvers/loss.hpp"
+#include "shoal/solvers/trace.hpp"
 
 namespace shoal::solvers {
 
@@ -26,6 +27,7 @@ struct PointPair {
 struct RegistrationProblem {
   std::span<const PointPair> pairs;
   const Loss* loss = nullptr;  ///< nullptr: the square
+  Trace* trace = nullptr;      ///< borrowed: where a solve by descent notes its progress
 
   bool is_square() const { return !loss || loss->is_square(); }
 };

@@ -78,7 +78,31 @@ const double* Attempt::place(const double* y) {
 bool Attempt::may_go_on() {
   stopped_ = stopped_ || evaluations_ >= limits_.max_evaluations;
   evaluations_ += stopped_ ? 0 : 1;
+  if (problem_.trace && !stopped_) problem_.trace->count_evaluation();
   return !stopped_;
+}
+
+Attempt::Block Attempt::constraint(int k) const {
+  const int first = constraints();
+  if (k < first) return {*problem_.constraints, k};
+  return {*problem_.equalities, k - first};
+}
+
+std::vector<int> Attempt::free_among(std::span<const int> unknowns) const {
+  std::vector<int> found;
+  for (int k = 0; k < free_count_; ++k) {
+    if (unknowns.empty() || std::ranges::binary_search(unknowns, free(k))) found.push_back(k);
+  }
+  return found;
+}
+
+std::vector<int> Attempt::unknowns_of_constraint(int k) const {
+  const Block block = constraint(k);
+  return free_among(block.function.unknowns_of(block.place));
+}
+
+std::vector<int> Attempt::unknowns_of_residuals(int block) const {
+  return free_among(problem_.least_squares->residuals->unknowns_of(block));
 }
 
 template <class Function>
@@ -118,6 +142,28 @@ bool Attempt::reduced(const Function& function, const double* y, double& value, 
   return finite;
 }
 
+std::vector<std::pair<int, int>> Attempt::hessian_pattern() const {
+  using Flags = Eigen::Matrix<bool, Eigen::Dynamic, Eigen::Dynamic>;
+  Flags met = Flags::Constant(free_count_, free_count_, problem_.least_squares == nullptr);
+  const auto meet = [&](const std::vector<int>& unknowns) {
+    for (const int i : unknowns) {
+      for (const int j : unknowns) met(i, j) = true;
+    }
+  };
+  const int blocks = problem_.least_squares ? problem_.least_squares->residuals->blocks() : 0;
+  for (int b = 0; b < blocks; ++b) meet(unknowns_of_residuals(b));
+  for (int k = 0; k < constraints() + equalities(); ++k) {
+    if (!linear_constraint(k)) meet(unknowns_of_constraint(k));
+  }
+  std::vector<std::pair<int, int>> pattern;
+  for (int i = 0; i < free_count_; ++i) {
+    for (int j = 0; j <= i; ++j) {
+      if (met(i, j)) pattern.emplace_back(i, j);
+    }
+  }
+  return pattern;
+}
+
 Attempt::Outcome Attempt::evaluate(const double* y, double& cost, double* gradient,
                                    double* hessian) {
   if (!may_go_on()) return Outcome::stop;
@@ -142,14 +188,13 @@ Attempt::Outcome Attempt::evaluate(const double* y, double& cost, double* gradie
 Attempt::Outcome Attempt::constrain(int k, const double* y, double& value, double* gradient,
                                     double* hessian) {
   if (stopped_) return Outcome::stop;
-  const auto constraint = [&](const double* x, double* all_gradient, double* all_hessian) {
+  const auto by_all = [&](const double* x, double* all_gradient, double* all_hessian) {
     double at_x = 0.0;
-    const bool equal = k >= constraints();
-    const VectorFunction& function = equal ? *problem_.equalities : *problem_.constraints;
-    function.evaluate(equal ? k - constraints() : k, x, &at_x, all_gradient, all_hessian);
+    const auto [function, place] = constraint(k);
+    evaluate_by_all(function, place, problem_.dimension(), x, &at_x, all_gradient, all_hessian);
     return at_x;
   };
-  return guarded([&] { return reduced(constraint, y, value, gradient, hessian); });
+  return guarded([&] { return reduced(by_all, y, value, gradient, hessian); });
 }
 
 Attempt::Outcome Attempt::begin_residuals() {
@@ -163,7 +208,9 @@ Attempt::Outcome Attempt::residuals(int block, const double* y, double* values, 
   if (stopped_) return Outcome::stop;
   return guarded([&] {
     const LeastSquares& structure = *problem_.least_squares;
-    const int m = structure.residuals->block_size(), n = problem_.dimension();
+    const std::span<const int> own = structure.residuals->unknowns_of(block);
+    const int m = structure.residuals->block_size();
+    const int n = own.empty() ? problem_.dimension() : static_cast<int>(own.size());
     const double* x = place(y);
     Scratch whole(at(jacobian ? m * n : 0));
     structure.residuals->evaluate(block, x, values, jacobian ? whole.data() : nullptr, nullptr);
@@ -171,9 +218,14 @@ Attempt::Outcome Attempt::residuals(int block, const double* y, double* values, 
     bool finite = true;
     for (int r = 0; r < m; ++r) {
       squared += values[r] * values[r];
-      for (int k = 0; jacobian && k < free_count_; ++k) {
-        const double entry = jacobian[r * free_count_ + k] = whole[at(r * n + free(k))];
-        finite &= std::isfinite(entry);
+    }
+    for (int r = 0; jacobian && r < m; ++r) {
+      for (int i = 0, k = 0; i < n; ++i) {
+        const int unknown = own.empty() ? i : own[at(i)];
+        while (k < free_count_ && free(k) < unknown) ++k;
+        if (k == free_count_ || free(k) != unknown) continue;
+        *jacobian = whole[at(r * n + i)];
+        finite &= std::isfinite(*jacobian++);
       }
     }
     if (!finite || !std::isfinite(squared)) return false;
@@ -206,6 +258,7 @@ void Attempt::remember(const double* x, double cost) {
   for (Eigen::Index i = 0; i < best_.size(); ++i) best_[i] = x[i];
   best_cost_ = cost;
   best_violation_ = violation;
+  if (problem_.trace && violation == 0.0) problem_.trace->note(cost);
 }
 
 Solution Attempt::finish(int code, const char* says) {

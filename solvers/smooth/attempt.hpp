@@ -2,6 +2,9 @@
 
 #include <chrono>
 #include <exception>
+#include <span>
+#include <utility>
+#include <vector>
 
 #include "shoal/core/small_vector.hpp"
 #include "shoal/solvers/smooth/limits.hpp"
@@ -42,20 +45,32 @@ class Attempt {
   int constraints() const { return problem_.constraints ? problem_.constraints->blocks() : 0; }
   int equalities() const { return problem_.equalities ? problem_.equalities->blocks() : 0; }
 
+  /// Where the Hessian of the cost and of what constrains it may differ from zero: row and column
+  /// of its lower triangle. Known of sums of squares; of other costs it is everywhere.
+  std::vector<std::pair<int, int>> hessian_pattern() const;
+
   /// The cost at y, its gradient and its Hessian (column-major) where they are not null.
   Outcome evaluate(const double* y, double& cost, double* gradient = nullptr,
                    double* hessian = nullptr);
 
   /// Constraint k at y: first those that are to be at least zero, then the equalities. Not counted
-  /// as an evaluation.
+  /// as an evaluation. Of a linear one the Hessian is zero.
   Outcome constrain(int k, const double* y, double& value, double* gradient = nullptr,
                     double* hessian = nullptr);
+
+  /// The free unknowns that constraint k depends on, rising; its other derivatives are zero.
+  std::vector<int> unknowns_of_constraint(int k) const;
+  bool linear_constraint(int k) const { return constraint(k).function.linear(); }
 
   /// For solvers of least squares, which ask for residuals instead of costs: begins an evaluation
   /// at a new point. Its cost follows when all blocks were asked for once, in their order.
   Outcome begin_residuals();
 
-  /// One block of the residuals at y, with its Jacobian (row-major) where that is not null.
+  /// The free unknowns that a block of the residuals depends on, rising.
+  std::vector<int> unknowns_of_residuals(int block) const;
+
+  /// One block of the residuals at y, with its Jacobian (row-major) by those unknowns where that is
+  /// not null.
   Outcome residuals(int block, const double* y, double* values, double* jacobian);
 
   bool must_stop() const { return stopped_; }
@@ -80,7 +95,14 @@ class Attempt {
   Solution finish_converged(const char* says);
 
  private:
+  struct Block {
+    const VectorFunction& function;
+    int place;
+  };
+
   const char* flaw() const;
+  Block constraint(int k) const;
+  std::vector<int> free_among(std::span<const int> unknowns) const;
   Problem::Vector free_part(const Problem::Vector& all) const;
   int free(int k) const { return free_[static_cast<std::size_t>(k)]; }
   const double* place(const double* y);  ///< all unknowns at y

@@ -10,6 +10,8 @@
 #include <ceres/solver.h>
 #include <glog/logging.h>
 
+#include <vector>
+
 #include "shoal/solvers/least_squares.hpp"
 #include "shoal/solvers/smooth/attempt.hpp"
 
@@ -92,6 +94,7 @@ class LineSearch final : public Solver {
 
 // Sums of squares --------------------------------------------------------------------------------
 
+/// A block of residuals that depends on all unknowns, which are one block of parameters.
 class Block final : public ceres::CostFunction {
  public:
   Block(Attempt& attempt, int block, int size) : attempt_(attempt), block_(block) {
@@ -107,6 +110,33 @@ class Block final : public ceres::CostFunction {
  private:
   Attempt& attempt_;
   int block_;
+};
+
+/// One that depends on some unknowns, each a block of parameters of its own. `y` are all of them:
+/// Ceres writes the point of an evaluation there before a callback sees it.
+class SparseBlock final : public ceres::CostFunction {
+ public:
+  SparseBlock(Attempt& attempt, int block, int size, const double* y, int unknowns)
+      : attempt_(attempt), block_(block), y_(y), jacobian_(size, unknowns) {
+    set_num_residuals(size);
+    mutable_parameter_block_sizes()->assign(static_cast<std::size_t>(unknowns), 1);
+  }
+
+  bool Evaluate(double const* const*, double* residuals, double** jacobians) const override {
+    double* wanted = jacobians ? jacobian_.data() : nullptr;
+    if (attempt_.residuals(block_, y_, residuals, wanted) != Attempt::Outcome::fine) return false;
+    for (Eigen::Index i = 0; jacobians && i < jacobian_.cols(); ++i) {
+      if (jacobians[i])
+        Eigen::Map<Eigen::VectorXd>(jacobians[i], jacobian_.rows()) = jacobian_.col(i);
+    }
+    return true;
+  }
+
+ private:
+  Attempt& attempt_;
+  int block_;
+  const double* y_;
+  mutable Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> jacobian_;
 };
 
 class WeightedLoss final : public ceres::LossFunction {
@@ -155,20 +185,31 @@ class TrustRegion final : public Solver {
     ceres::Problem::Options problem_options;
     problem_options.evaluation_callback = &trials;
     ceres::Problem posed(problem_options);
-    for (int b = 0; b < structure.residuals->blocks(); ++b) {
-      posed.AddResidualBlock(new Block(attempt, b, structure.residuals->block_size()),
-                             new WeightedLoss(structure, structure.weight(b)), y.data());
+    const int blocks = structure.residuals->blocks(), size = structure.residuals->block_size();
+    const bool sparse = blocks > 0 && !structure.residuals->unknowns_of(0).empty();
+    for (int k = 0; sparse && k < attempt.unknowns(); ++k) posed.AddParameterBlock(&y[k], 1);
+    for (int b = 0; b < blocks; ++b) {
+      auto* loss = new WeightedLoss(structure, structure.weight(b));
+      if (!sparse) {
+        posed.AddResidualBlock(new Block(attempt, b, size), loss, y.data());
+        continue;
+      }
+      std::vector<double*> own;
+      for (const int k : attempt.unknowns_of_residuals(b)) own.push_back(&y[k]);
+      posed.AddResidualBlock(
+          new SparseBlock(attempt, b, size, y.data(), static_cast<int>(own.size())), loss, own);
     }
     if (attempt.bounded()) {
       const Problem::Vector lower = attempt.lower(), upper = attempt.upper();
       for (int k = 0; k < attempt.unknowns(); ++k) {
-        posed.SetParameterLowerBound(y.data(), k, lower[k]);
-        posed.SetParameterUpperBound(y.data(), k, upper[k]);
+        double* parameters = sparse ? &y[k] : y.data();
+        posed.SetParameterLowerBound(parameters, sparse ? 0 : k, lower[k]);
+        posed.SetParameterUpperBound(parameters, sparse ? 0 : k, upper[k]);
       }
     }
     ShortStep short_step(attempt);
     ceres::Solver::Options options;
-    options.linear_solver_type = ceres::DENSE_QR;
+    options.linear_solver_type = sparse ? ceres::SPARSE_NORMAL_CHOLESKY : ceres::DENSE_QR;
     hand_over(short_step, limits_, options);
     ceres::Solver::Summary summary;
     ceres::Solve(options, &posed, &summary);

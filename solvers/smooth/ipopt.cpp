@@ -3,6 +3,8 @@
 #include <coin/IpIpoptApplication.hpp>
 #include <coin/IpTNLP.hpp>
 #include <mutex>
+#include <utility>
+#include <vector>
 
 #include "shoal/solvers/smooth/attempt.hpp"
 
@@ -22,14 +24,22 @@ std::recursive_mutex& mumps() {
 class Posed final : public Ipopt::TNLP {
  public:
   Posed(Attempt& attempt, double x_tolerance_m)
-      : attempt_(attempt), tolerance_(x_tolerance_m), n_(attempt.unknowns()) {}
+      : attempt_(attempt),
+        tolerance_(x_tolerance_m),
+        n_(attempt.unknowns()),
+        curved_(attempt.hessian_pattern()) {
+    for (int k = 0; k < attempt.constraints() + attempt.equalities(); ++k) {
+      unknowns_.push_back(attempt.unknowns_of_constraint(k));
+      entries_ += static_cast<Index>(unknowns_.back().size());
+    }
+  }
 
   bool get_nlp_info(Index& n, Index& m, Index& jacobian_entries, Index& hessian_entries,
                     IndexStyleEnum& style) override {
     n = n_;
     m = attempt_.constraints() + attempt_.equalities();
-    jacobian_entries = n * m;
-    hessian_entries = n * (n + 1) / 2;
+    jacobian_entries = entries_;
+    hessian_entries = static_cast<Index>(curved_.size());
     style = C_STYLE;
     return true;
   }
@@ -77,18 +87,20 @@ class Posed final : public Ipopt::TNLP {
 
   bool eval_jac_g(Index, const Number* y, bool is_new, Index m, Index, Index* row, Index* column,
                   Number* values) override {
-    for (Index k = 0; k < m; ++k) {
-      for (int i = 0; row && i < n_; ++i) {
-        row[k * n_ + i] = k;
-        column[k * n_ + i] = i;
+    if (row) {
+      for (Index k = 0; k < m; ++k) {
+        for (const int i : unknowns_of(k)) {
+          *row++ = k;
+          *column++ = i;
+        }
       }
+      return true;
     }
-    if (row) return true;
     if (!at(y, is_new)) return false;
     for (Index k = 0; k < m; ++k) {
       double value = 0.0;
-      Number* row_values = values + std::ptrdiff_t{k} * n_;
-      if (attempt_.constrain(k, y, value, row_values) != Attempt::Outcome::fine) return false;
+      if (attempt_.constrain(k, y, value, row_.data()) != Attempt::Outcome::fine) return false;
+      for (const int i : unknowns_of(k)) *values++ = row_[i];
     }
     return true;
   }
@@ -97,28 +109,23 @@ class Posed final : public Ipopt::TNLP {
               const Number* multiplier, bool, Index, Index* row, Index* column,
               Number* values) override {
     if (row) {
-      for (int i = 0, entry = 0; i < n_; ++i) {
-        for (int j = 0; j <= i; ++j, ++entry) {
-          row[entry] = i;
-          column[entry] = j;
-        }
+      for (const auto& [i, j] : curved_) {
+        *row++ = i;
+        *column++ = j;
       }
       return true;
     }
     if (!at(y, is_new)) return false;
     Eigen::MatrixXd sum = cost_factor * hessian_, hessian(n_, n_);
-    Eigen::VectorXd gradient(n_);
     for (Index k = 0; k < m; ++k) {
+      if (attempt_.linear_constraint(k)) continue;
       double value = 0.0;
-      if (attempt_.constrain(k, y, value, gradient.data(), hessian.data()) !=
-          Attempt::Outcome::fine) {
+      if (attempt_.constrain(k, y, value, row_.data(), hessian.data()) != Attempt::Outcome::fine) {
         return false;
       }
       sum += multiplier[k] * hessian;
     }
-    for (int i = 0, entry = 0; i < n_; ++i) {
-      for (int j = 0; j <= i; ++j, ++entry) values[entry] = sum(j, i);
-    }
+    for (const auto& [i, j] : curved_) *values++ = sum(j, i);
     return true;
   }
 
@@ -147,9 +154,17 @@ class Posed final : public Ipopt::TNLP {
     return known_;
   }
 
+  const std::vector<int>& unknowns_of(Index k) const {
+    return unknowns_[static_cast<std::size_t>(k)];
+  }
+
   Attempt& attempt_;
   double tolerance_;
   int n_;
+  const std::vector<std::pair<int, int>> curved_;
+  std::vector<std::vector<int>> unknowns_;  // of each constraint
+  Index entries_ = 0;
+  Eigen::VectorXd row_ = Eigen::VectorXd::Zero(n_);
   bool known_ = false;
   double cost_ = 0.0;
   Eigen::VectorXd gradient_ = Eigen::VectorXd::Zero(n_);
@@ -183,6 +198,15 @@ class IpoptSolver final : public Solver {
     set("tol", 1e-10);
     set("acceptable_iter", 0);  // no second-best answers
     set("bound_relax_factor", 0.0);
+    const auto all_linear = [&](int from, int to) {
+      for (int k = from; k < to; ++k) {
+        if (!attempt.linear_constraint(k)) return "no";
+      }
+      return "yes";
+    };
+    const int m = attempt.constraints();
+    set("jac_d_constant", all_linear(0, m));
+    set("jac_c_constant", all_linear(m, m + attempt.equalities()));
     set("max_iter", static_cast<int>(options_.max_evaluations));
     if (application->Initialize("") != Ipopt::Solve_Succeeded) {
       return attempt.finish(0, "Ipopt did not accept its options");

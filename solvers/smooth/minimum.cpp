@@ -45,7 +45,7 @@ ActiveSet active_set_at(const Problem& problem, const Vector& x, double reach) {
     for (int k = 0; function && k < function->blocks(); ++k) {
       double value = 0.0;
       Eigen::VectorXd normal(n);
-      function->evaluate(k, x.data(), &value, normal.data(), nullptr);
+      evaluate_by_all(*function, k, static_cast<int>(n), x.data(), &value, normal.data(), nullptr);
       consider(k, value, normal);
     }
   };
@@ -164,10 +164,11 @@ bool is_minimum(const Problem& problem, const Vector& x, double longest, double 
     binding.push_back(k);
     gradient -= multiplier[k] * active.normals.col(k);
     const ActiveSet::Source& source = active.sources[static_cast<std::size_t>(k)];
-    if (!source.function) continue;
+    if (!source.function || source.function->linear()) continue;
     double value = 0.0;
     Square<N, Max> constraint_hessian(x.size(), x.size());
-    source.function->evaluate(source.block, x.data(), &value, nullptr, constraint_hessian.data());
+    evaluate_by_all(*source.function, source.block, static_cast<int>(x.size()), x.data(), &value,
+                    nullptr, constraint_hessian.data());
     hessian -= multiplier[k] * source.sign * constraint_hessian;
   }
   // Equalities hold it back also where nothing presses against them.

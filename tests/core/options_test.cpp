@@ -73,6 +73,7 @@ struct Everything {
   std::vector<Nested> parts;
   std::optional<Nested> extra;
   Setting free;
+  NamedNumbers constants = {{"g", 9.81}};
 
   static void declare(Options<Everything>& o) {
     o.number("speed_m_s", &Everything::speed_m_s, "m/s", in(0, 5), "speed");
@@ -89,6 +90,7 @@ struct Everything {
     o.tables("part", &Everything::parts, "its parts");
     o.table("extra", &Everything::extra, "may be left out");
     o.setting("free", &Everything::free, "anything", "as it was written");
+    o.named_numbers("constants", &Everything::constants, "by names of one's own");
   }
 
   std::optional<std::string> complaint() const {
@@ -121,6 +123,28 @@ TEST(Options, ReadEveryKindOfValue) {
   const auto points = reading(with("points", value(Setting::List{pair}))).points;
   ASSERT_EQ(points.size(), 1u);
   EXPECT_EQ(points[0], Eigen::Vector2d(1, -2.5));
+}
+
+TEST(Options, ReadNumbersUnderNamesOfOnesOwn) {
+  EXPECT_EQ(reading(Setting{}).constants, (NamedNumbers{{"g", 9.81}}));
+  Setting table;
+  assign(table, "constants.b", value(2.5));
+  assign(table, "constants.a", integer(1));
+  const Everything read_back = reading(table);
+  EXPECT_EQ(read_back.constants, (NamedNumbers{{"b", 2.5}, {"a", 1.0}}));
+  const Setting written = write_options(schema_of<Everything>(), &read_back);
+  EXPECT_EQ(reading(written).constants, read_back.constants);
+
+  EXPECT_EQ(complaint("constants", value(3.0)), "constants is a number; it takes a table of numbers");
+  EXPECT_EQ(complaint("constants.c", text("x")), "constants.c is a string; it takes a number");
+  EXPECT_EQ(complaint("constants.c", value(NAN)),
+            "constants.c is nan; it takes any finite number");
+
+  const OptionPlace place = locate(schema_of<Everything>(), "constants.c");
+  EXPECT_EQ(place.key, "constants.c");
+  EXPECT_EQ(place.option->type, "a number");
+  EXPECT_EQ(place.fallback, nullptr);
+  EXPECT_THROW(locate(schema_of<Everything>(), "constants.c.d"), InputError);
 }
 
 TEST(Options, KnowWhetherATableWasLeftOut) {

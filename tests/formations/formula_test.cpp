@@ -15,9 +15,9 @@
 namespace shoal::formations {
 namespace {
 
-std::string complaint(const std::string& text) {
+std::string complaint(const std::string& text, const NamedNumbers& parameters = {}) {
   try {
-    Formula{text};
+    Formula{text, parameters};
   } catch (const InputError& error) {
     return error.what();
   }
@@ -167,6 +167,38 @@ TEST(Formula, SaysWhatIsWrongWithAText) {
   EXPECT_EQ(complaint("r*9^9^9^9"), "the value of this part is not finite (inf) (character 6)");
   EXPECT_EQ(complaint("r*1e999"), "this number is too large or too small (character 3)");
   EXPECT_EQ(complaint("1/(r - r)").substr(0, 26), "it has no derivative: powe");
+}
+
+TEST(Formula, HasParametersThatStandForNumbers) {
+  // Morse's potential, as it is written with and without names.
+  const NamedNumbers named{{"depth", 5.0}, {"a2", 0.02}};
+  const Formula with("depth*(1 - exp(-a2*(r - s)))^2", named);
+  const Formula without("5*(1 - exp(-0.02*(r - s)))^2");
+  for (const double r : {1.0, 250.0, 300.0, 700.0}) {
+    const RadialValue a = with.derivatives(r, 300.0), b = without.derivatives(r, 300.0);
+    EXPECT_EQ(a.value, b.value);
+    EXPECT_EQ(a.slope, b.slope);
+    EXPECT_EQ(a.curvature, b.curvature);
+  }
+  EXPECT_EQ(complaint("depth*r", {{"depth", 2.0}}), "");
+}
+
+TEST(Formula, SaysWhatIsWrongWithAParameter) {
+  EXPECT_EQ(complaint("k*r", {{"j", 1.0}}),
+            "there is no symbol \"k\"; known are r (distance, m), s (separation, m), j and pi "
+            "(character 1)");
+  EXPECT_EQ(complaint("r", {{"k", 1.0}}), "it does not have the parameter k");
+  EXPECT_EQ(complaint("k", {{"k", 1.0}}), "it does not depend on the distance r");
+  for (const std::string name : {"r", "s", "pi", "exp"}) {
+    EXPECT_EQ(complaint("r", {{name, 1.0}}),
+              "the parameter " + name + " needs another name: " + name + " has a meaning already");
+  }
+  EXPECT_EQ(complaint("k*r", {{"k", 1.0}, {"k", 2.0}}),
+            "the parameter k needs another name: k has a meaning already");
+  for (const std::string name : {"", "2k", "a b", "k'", "\xc3\xa9"}) {
+    EXPECT_EQ(complaint("r", {{name, 1.0}}),
+              "a parameter is named by letters, digits and _, a letter first; not \"" + name + '"');
+  }
 }
 
 TEST(Formula, KeepsHostileTextsInBounds) {

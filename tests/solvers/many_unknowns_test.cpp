@@ -46,7 +46,8 @@ TEST(Unknowns, KeepTheirElementsWhateverTheirNumber) {
 }
 
 /// How far distances between vehicles are from those of their slots, and vehicles from where they
-/// were heard. Unknowns: all places, east and north in turn (m).
+/// were heard. Unknowns: all places, east and north in turn (m); a block depends on those of one or
+/// two vehicles.
 class Layout final : public VectorFunction {
  public:
   explicit Layout(std::vector<Vector2d> slots, std::vector<Vector2d> heard)
@@ -56,16 +57,21 @@ class Layout final : public VectorFunction {
         if ((slot(i) - slot(j)).norm() < 450.0) pairs_.emplace_back(i, j);
       }
     }
+    for (const auto& [i, j] : pairs_) unknowns_.push_back({2 * j, 2 * j + 1, 2 * i, 2 * i + 1});
+    for (int i = 0; i < vehicles(); ++i) unknowns_.push_back({2 * i, 2 * i + 1});
   }
 
   int vehicles() const { return static_cast<int>(slots_.size()); }
   int pairs() const { return static_cast<int>(pairs_.size()); }
   int blocks() const override { return pairs() + vehicles(); }
   int block_size() const override { return 2; }
+  std::span<const int> unknowns_of(int block) const override {
+    return unknowns_[static_cast<std::size_t>(block)];
+  }
 
   void evaluate(int block, const double* x, double* values, double* jacobian,
                 double* hessians) const override {
-    const int n = 2 * vehicles();
+    const int n = block < pairs() ? 4 : 2;
     if (jacobian) std::fill_n(jacobian, 2 * n, 0.0);
     if (hessians) std::fill_n(hessians, 2 * n * n, 0.0);
     values[1] = 0.0;
@@ -73,7 +79,7 @@ class Layout final : public VectorFunction {
       const int i = block - pairs();
       for (int k = 0; k < 2; ++k) {
         values[k] = 0.01 * (x[2 * i + k] - heard_[static_cast<std::size_t>(i)][k]);
-        if (jacobian) jacobian[k * n + 2 * i + k] = 0.01;
+        if (jacobian) jacobian[k * n + k] = 0.01;
       }
       return;
     }
@@ -86,14 +92,14 @@ class Layout final : public VectorFunction {
         (Eigen::Matrix2d::Identity() - direction * direction.transpose()) / r;
     for (int a = 0; a < 2; ++a) {
       if (jacobian) {
-        jacobian[2 * i + a] = direction[a];
-        jacobian[2 * j + a] = -direction[a];
+        jacobian[2 + a] = direction[a];
+        jacobian[a] = -direction[a];
       }
       for (int b = 0; hessians && b < 2; ++b) {
-        hessians[(2 * i + a) * n + 2 * i + b] += bend(a, b);
-        hessians[(2 * j + a) * n + 2 * j + b] += bend(a, b);
-        hessians[(2 * i + a) * n + 2 * j + b] -= bend(a, b);
-        hessians[(2 * j + a) * n + 2 * i + b] -= bend(a, b);
+        hessians[(2 + a) * n + 2 + b] += bend(a, b);
+        hessians[a * n + b] += bend(a, b);
+        hessians[(2 + a) * n + b] -= bend(a, b);
+        hessians[a * n + 2 + b] -= bend(a, b);
       }
     }
   }
@@ -103,6 +109,25 @@ class Layout final : public VectorFunction {
 
   std::vector<Vector2d> slots_, heard_;
   std::vector<std::pair<int, int>> pairs_;
+  std::vector<std::vector<int>> unknowns_;
+};
+
+/// The same function, without saying on which unknowns a block depends.
+class Dense final : public VectorFunction {
+ public:
+  Dense(std::shared_ptr<const VectorFunction> function, int dimension)
+      : function_(std::move(function)), dimension_(dimension) {}
+
+  int blocks() const override { return function_->blocks(); }
+  int block_size() const override { return function_->block_size(); }
+  void evaluate(int block, const double* x, double* values, double* jacobian,
+                double* hessians) const override {
+    evaluate_by_all(*function_, block, dimension_, x, values, jacobian, hessians);
+  }
+
+ private:
+  std::shared_ptr<const VectorFunction> function_;
+  int dimension_;
 };
 
 /// A lattice of 10 x 5 vehicles, heard with an error of 20 m: 100 unknowns.
@@ -151,6 +176,37 @@ TEST_P(ManyUnknowns, LayOutAWholeSwarm) {
     residuals->evaluate(b, solution.x.data(), miss, nullptr, nullptr);
     EXPECT_LT(std::abs(miss[0]), 0.5) << b;
   }
+}
+
+TEST(Sparsity, ChangesNeitherTheCostNorItsDerivatives) {
+  std::shared_ptr<const Layout> residuals;
+  const Problem sparse = layout(residuals);
+  const Problem dense = least_squares_problem(
+      sparse.start, {std::make_shared<const Dense>(residuals, 100), nullptr, {}});
+  std::mt19937 generator(5);
+  std::normal_distribution<double> shift(0.0, 30.0);
+  for (int k = 0; k < 3; ++k) {
+    Eigen::VectorXd x = sparse.start, gradient(100), other_gradient(100);
+    for (double& each : x) each += shift(generator);
+    Eigen::MatrixXd hessian(100, 100), other_hessian(100, 100);
+    const double cost = sparse.evaluate(x.data(), gradient.data(), hessian.data());
+    const double other = dense.evaluate(x.data(), other_gradient.data(), other_hessian.data());
+    EXPECT_NEAR(cost, other, 1e-12 * other);
+    EXPECT_LT((gradient - other_gradient).norm(), 1e-12 * gradient.norm());
+    EXPECT_LT((hessian - other_hessian).norm(), 1e-12 * hessian.norm());
+    EXPECT_EQ(sparse.evaluate(x.data(), gradient.data()), cost);
+    EXPECT_LT((gradient - other_gradient).norm(), 1e-12 * gradient.norm());
+  }
+}
+
+TEST_P(ManyUnknowns, AreTheSameWhetherOrNotTheFunctionSaysOnWhichItDepends) {
+  std::shared_ptr<const Layout> residuals;
+  const Problem problem = layout(residuals);
+  expect_the_minimum(
+      solved(GetParam(), least_squares_problem(problem.start,
+                                               {std::make_shared<const Dense>(residuals, 100),
+                                                nullptr, {}})),
+      problem);
 }
 
 TEST_P(ManyUnknowns, KeepToBoundsThatHoldSomeOfThem) {

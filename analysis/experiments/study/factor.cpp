@@ -87,7 +87,8 @@ Axis::Axis(const Factor& factor)
                        "trial.seed is no factor: replications give every cell the same seeds; set "
                        "replications, and seed for the first of them");
     }
-    if (place.member || (place.option->choice && !place.is_kind) || place.option->table) {
+    if (place.member || (place.option->choice && !place.is_kind) || place.option->table ||
+        place.option->entry) {
       throw InputError(factor.origin, key_ + " is a table of options; name one of them" +
                                           (place.option->choice ? ", or " + key_ + ".kind" : ""));
     }
