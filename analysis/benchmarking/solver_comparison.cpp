@@ -36,6 +36,17 @@ Eigen::VectorXd place_of(const solvers::MatchingProblem& problem,
 }
 
 template <class Solver, class Problem>
+std::vector<solvers::Trace::Point> traced(const Solver& solver, Problem problem) {
+  solvers::Trace trace;
+  if constexpr (requires { problem.trace; }) {
+    problem.trace = &trace;
+    trace.begin();
+    solver.solve(problem);
+  }
+  return trace.points();
+}
+
+template <class Solver, class Problem>
 SolverAnswer answered(const Solver& solver, const Problem& problem) {
   SolverAnswer answer;
   if (auto why = solver.refuses(problem)) {
@@ -72,11 +83,17 @@ struct Entrants {
   /// One solver after another, not problem by problem: a large one would leave the others a cold
   /// cache, and a time that is not theirs.
   template <class Problem>
-  void meet(const auto& problems) {
+  void meet(const auto& problems, bool progress) {
     for (std::size_t k = 0; k < solvers.size(); ++k) {
+      std::vector<SolverAnswer>& answers = family.contenders[k].answers;
       for (const auto& each : problems) {
         const Problem& problem = each;
-        family.contenders[k].answers.push_back(answered(*solvers[k], problem));
+        answers.push_back(answered(*solvers[k], problem));
+      }
+      if (!progress) continue;
+      for (std::size_t i = 0; i < problems.size(); ++i) {
+        const Problem& problem = problems[i];
+        if (answers[i].refusal.empty()) answers[i].progress = traced(*solvers[k], problem);
       }
     }
   }
@@ -172,11 +189,12 @@ void require_known(const ComparisonSettings& settings,
 
 struct SolverComparison::Entries {
   explicit Entries(const ComparisonSettings& settings)
-      : smooth(settings), registration(settings), matching(settings) {}
+      : smooth(settings), registration(settings), matching(settings), progress(settings.progress) {}
 
   Entrants<solvers::Solver> smooth;
   Entrants<solvers::RegistrationSolver> registration;
   Entrants<solvers::Matcher> matching;
+  bool progress;
 };
 
 SolverComparison::SolverComparison(const ComparisonSettings& settings) {
@@ -208,9 +226,10 @@ void SolverComparison::run(const Corpus& corpus) {
          .waypoint = experiment.waypoint.value_or(Eigen::Vector2d::Zero())},
         experiment.plan, solving);
   }
-  entries_->smooth.meet<solvers::Problem>(problems.smooth);
-  entries_->registration.meet<solvers::RegistrationProblem>(problems.registration);
-  entries_->matching.meet<solvers::MatchingProblem>(problems.matching);
+  entries_->smooth.meet<solvers::Problem>(problems.smooth, entries_->progress);
+  entries_->registration.meet<solvers::RegistrationProblem>(problems.registration,
+                                                            entries_->progress);
+  entries_->matching.meet<solvers::MatchingProblem>(problems.matching, entries_->progress);
 }
 
 std::vector<const ContenderFamily*> SolverComparison::families() const {

@@ -8,6 +8,7 @@
 #include "shoal/analysis/benchmarking/corpus.hpp"
 #include "shoal/analysis/tables/table.hpp"
 #include "shoal/solvers/answer.hpp"
+#include "shoal/solvers/trace.hpp"
 
 namespace shoal::analysis {
 
@@ -16,6 +17,7 @@ struct SolverAnswer : solvers::Answer {
   std::string refusal;    ///< why the solver does not take the problem, if it does not
   Eigen::VectorXd place;  ///< m: answers are as far apart as these
   double seconds = 0.0;
+  std::vector<solvers::Trace::Point> progress;  ///< if wanted, and if the solver descends
 
   bool solved() const { return status == solvers::Status::converged; }
 };
@@ -24,6 +26,8 @@ struct ComparisonSettings {
   std::vector<std::string> solvers;
   std::string reference;  ///< whose minimum is "the same" one; empty: a family's first solver
   Setting options;        ///< family -> solver -> option
+  /// Whether every problem is solved once more, to trace it: the times stay those without.
+  bool progress = false;
 };
 
 /// One solver, and its answers to all problems of its family in their order.
@@ -67,5 +71,12 @@ Table comparison_table(const SolverComparison& comparison, double same_within_m)
 /// the problems that a solver solves within a factor of the least time (or evaluations) of all.
 /// Any local minimum counts as solved.
 Table performance_profiles(const SolverComparison& comparison);
+
+/// How far solvers have come after so many evaluations or seconds: the quartiles over the problems
+/// of the share of the descent that is left, (cost - lowest) / (first - lowest). The lowest cost is
+/// that of all solvers together, the first the highest that one of them began with. A solver that
+/// refuses a problem, or has not evaluated it yet, has all of the descent before it; where there is
+/// nothing to descend, none.
+Table progress_curves(const SolverComparison& comparison);
 
 }  // namespace shoal::analysis

@@ -264,7 +264,8 @@ int shoal_program(int argc, char** argv) {
   solve_command->add_option("--format", solve.format, "text, csv, markdown, latex or html")
       ->capture_default_str();
   solve_command->add_option("--profiles", solve.profiles,
-                            "CSV file for Dolan and Moré's performance profiles");
+                            "CSV file for Dolan and Moré's performance profiles; progress curves "
+                            "are written beside it, as NAME_progress.csv");
   solve_command->callback([&] { command = [&] { shoal::program::solve(solve); }; });
 
   CLI::App* report_command = app.add_subcommand(

@@ -10,22 +10,31 @@ namespace shoal::program {
 
 void solve(const SolveArguments& arguments) {
   const analysis::TableFormat format = analysis::table_format(arguments.format);
-  analysis::ComparisonSettings settings{
-      .solvers = arguments.solvers, .reference = arguments.reference, .options = {}};
+  analysis::ComparisonSettings settings{.solvers = arguments.solvers,
+                                        .reference = arguments.reference,
+                                        .options = {},
+                                        .progress = !arguments.profiles.empty()};
   for (const std::string& set : arguments.sets) scenarios::apply_set(settings.options, set);
   analysis::SolverComparison comparison(settings);
   const analysis::Corpus corpus = analysis::read_corpus(arguments.corpus);
-  if (!arguments.profiles.empty()) analysis::require_writable_file(arguments.profiles);
+  const std::filesystem::path profiles = arguments.profiles;
+  std::filesystem::path progress = profiles;
+  progress.replace_filename(profiles.stem().string() + "_progress" + profiles.extension().string());
+  if (!profiles.empty()) {
+    for (const auto& file : {profiles, progress}) analysis::require_writable_file(file);
+  }
   comparison.run(corpus);
   if (comparison.families().empty()) {
     throw InputError("no problem of " + arguments.corpus +
                      " belongs to the family of a solver that was named");
   }
   fmt::print("{}", print(analysis::comparison_table(comparison, arguments.same_within_m), format));
-  if (!arguments.profiles.empty()) {
-    write_whole_file(arguments.profiles,
-                     print(analysis::performance_profiles(comparison), analysis::TableFormat::csv));
-  }
+  if (profiles.empty()) return;
+  const auto write = [](const std::filesystem::path& file, const analysis::Table& table) {
+    write_whole_file(file, print(table, analysis::TableFormat::csv));
+  };
+  write(profiles, analysis::performance_profiles(comparison));
+  write(progress, analysis::progress_curves(comparison));
 }
 
 }  // namespace shoal::program

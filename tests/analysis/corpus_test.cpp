@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <map>
 
 #include "shoal/analysis/benchmarking/problem_recorder.hpp"
 #include "shoal/analysis/benchmarking/solver_comparison.hpp"
@@ -241,6 +242,36 @@ TEST_F(Corpora, GiveProfilesThatRiseToTheShareSolved) {
   EXPECT_NE(profiles.find("solver,evaluations,nlopt.bobyqa,1,0\n"), std::string::npos);
   EXPECT_NE(profiles.find("solver,seconds,nlopt.bobyqa,16384,1\n"), std::string::npos);
   EXPECT_NE(profiles.find("solver,seconds,grid,16384,0\n"), std::string::npos);
+}
+
+TEST_F(Corpora, GiveProgressThatFallsToTheLowestCost) {
+  SolverComparison comparison({.solvers = {"newton", "nlopt.bobyqa", "grid", "procrustes"},
+                               .reference = "",
+                               .options = {},
+                               .progress = true});
+  comparison.run(recorded(scenario("attraction_repulsion")));
+  const ContenderFamily& family = *comparison.families().front();
+  for (const SolverAnswer& answer : family.contenders.front().answers) {
+    ASSERT_FALSE(answer.progress.empty());
+    EXPECT_EQ(answer.progress.back().cost, answer.cost);
+  }
+  const Table table = progress_curves(comparison);
+  std::string name;
+  double before = 1.0;
+  std::map<std::string, double> last;
+  for (const auto& row : table.rows) {
+    const std::string next = std::get<std::string>(row[1]) + " " + std::get<std::string>(row[2]);
+    if (next != name) before = 1.0;
+    name = next;
+    const double left = std::get<Estimate>(row[4]).value;
+    EXPECT_LE(std::get<Estimate>(row[5]).value, left);
+    EXPECT_GE(std::get<Estimate>(row[6]).value, left);
+    EXPECT_LE(left, before) << name;
+    last[name] = before = left;
+  }
+  EXPECT_LT(last.at("evaluations newton"), 1e-9);
+  EXPECT_LT(last.at("seconds nlopt.bobyqa"), 1e-6);
+  EXPECT_EQ(last.at("evaluations grid"), 1.0) << "it refuses problems without bounds";
 }
 
 TEST_F(Corpora, AreNotComparedWithOptionsThatNoNamedSolverHas) {

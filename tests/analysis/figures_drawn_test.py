@@ -156,6 +156,15 @@ class FiguresDrawn(desk.Desk):
             else:
                 self.assertTrue(self.assert_fine(lambda own=rows: profiles.profiles(own)))
 
+    def test_progress_curves(self):
+        import progress
+        rows = [{"family": family, "measure": measure, "solver": f"nlopt.solver_{k}",
+                 "effort": str(2.0 ** octave), "left": str(0.1 ** (octave * (k + 1))),
+                 "left_low": "0", "left_high": str(min(1.0, 10 * 0.1 ** (octave * (k + 1))))}
+                for family in ("solver", "registration") for measure in ("seconds", "evaluations")
+                for k in range(7) for octave in range(15)]
+        self.assertTrue(self.assert_fine(lambda: progress.progress(rows)))
+
     def test_names_as_words(self):
         for name, said in (("delta_theta_deg_deg", "delta theta (deg)"),
                            ("heading_noise_deg_s_deg_s", "heading noise (deg/s)"),

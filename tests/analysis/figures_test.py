@@ -164,7 +164,10 @@ measures = ["energy_mean_wh"]
                           "profiles.csv")
         self.assertEqual(done.returncode, 0, done.stderr)
         self.assertEqual({str(file) for file in self.drawn("profiles.csv")},
-                         {"figures/profiles.pdf", "figures/profiles.svg"})
+                         {f"figures/{name}.{kind}" for name in ("profiles", "profiles_progress")
+                          for kind in ("pdf", "svg")})
+        self.assertEqual({str(file) for file in self.drawn("profiles_progress.csv")},
+                         {"figures/profiles_progress.pdf", "figures/profiles_progress.svg"})
 
     def test_says_what_is_wrong(self):
         self.assert_complains(self.shoal("figures", "."), 2, ["has no scenario.toml"])

@@ -105,6 +105,8 @@ class Trials(Desk):
             profiles = (self.desk / "profiles.csv").read_text().splitlines()
             self.assertEqual(profiles[0], "family,measure,solver,factor,share")
             self.assertGreater(len(profiles), 50)
+            progress = (self.desk / "profiles_progress.csv").read_text().splitlines()
+            self.assertEqual(progress[0], "family,measure,solver,effort,left,left_low,left_high")
             markdown = self.shoal(*arguments, "--format", "markdown").stdout
             self.assertTrue(markdown.splitlines()[1].startswith("|---"))
             self.assertIn("\\toprule", self.shoal(*arguments, "--format", "latex").stdout)

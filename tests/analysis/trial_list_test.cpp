@@ -13,7 +13,7 @@ namespace {
 
 using tests::complaint_of;
 
-TrialList plan_of(const std::string& text) {
+TrialList listed(const std::string& text) {
   return TrialList(read_study(scenarios::parse_toml(text, "study.toml")));
 }
 
@@ -29,8 +29,8 @@ std::vector<std::string> titles(const TrialGroup& group) {
   return all;
 }
 
-TEST(Plan, TheLastFactorRunsFastestAndReplicationsWithinCells) {
-  const TrialList list = plan_of(base + "seed = 7\n" + behaviours + periods);
+TEST(TrialList, TheLastFactorRunsFastestAndReplicationsWithinCells) {
+  const TrialList list = listed(base + "seed = 7\n" + behaviours + periods);
   const TrialGroup& group = list.groups().front();
   EXPECT_EQ(titles(group), (std::vector<std::string>{
                                "behaviour = rigid_registration, period_s = 15",
@@ -50,7 +50,20 @@ TEST(Plan, TheLastFactorRunsFastestAndReplicationsWithinCells) {
   EXPECT_EQ(group.units(), (std::vector<std::string>{"", "s"}));
 }
 
-TEST(Plan, FactorsWhoseColumnsWouldBeOneAreRefused) {
+TEST(TrialList, AFactorMaySweepAParameterOfAFormula) {
+  const std::string potential = "behaviour.attraction_repulsion.potential";
+  const std::string kind = "set = { " + potential + ".kind = \"expression\" }\n";
+  const TrialList list =
+      listed(base + kind + "[[factor]]\nkey = \"" + potential +
+             ".expression.parameters.stiffness\"\nrange = [0.5, 2]\nsteps = 2\n");
+  EXPECT_EQ(titles(list.groups().front()),
+            (std::vector<std::string>{"stiffness = 0.5", "stiffness = 2"}));
+  EXPECT_THROW(listed(base + kind + "[[factor]]\nkey = \"" + potential +
+                      ".expression.parameters\"\nvalues = [1, 2]\n"),
+               InputError);
+}
+
+TEST(TrialList, FactorsWhoseColumnsWouldBeOneAreRefused) {
   const auto two = [](const std::string& first, const std::string& second) {
     return base + "[[factor]]\nname = \"" + first +
            "\"\nkey = \"ping.bearing_sd_deg\"\nvalues = [1, 2]\n[[factor]]\nname = \"" + second +
@@ -59,41 +72,41 @@ TEST(Plan, FactorsWhoseColumnsWouldBeOneAreRefused) {
   for (const auto& [first, second] :
        {std::pair("a", "A"), {"a b", "a#b"}, {"Noise_1", "noise 1"}}) {
     const std::string text = two(first, second);
-    const std::string why = complaint_of([&] { plan_of(text); });
+    const std::string why = complaint_of([&] { listed(text); });
     EXPECT_NE(
         why.find("\"" + std::string(first) + "\" and \"" + second + "\" would have one column"),
         std::string::npos)
         << why;
     EXPECT_TRUE(why.starts_with("study.toml:7: ")) << why;
   }
-  EXPECT_NO_THROW(plan_of(two("a", "b")));
-  EXPECT_NO_THROW(plan_of(two("\u00e4", "a")));
+  EXPECT_NO_THROW(listed(two("a", "b")));
+  EXPECT_NO_THROW(listed(two("\u00e4", "a")));
 }
 
-TEST(Plan, MoreTrialsThanCanBePlannedAreRefusedAtOnce) {
+TEST(TrialList, MoreTrialsThanCanBePlannedAreRefusedAtOnce) {
   const std::string many = "scenario = \"construction_square\"\nreplications = 1000000000\n";
-  EXPECT_NE(complaint_of([&] { plan_of(many); }).find("has 1e+09 trials, and may have 1e+07"),
+  EXPECT_NE(complaint_of([&] { listed(many); }).find("has 1e+09 trials, and may have 1e+07"),
             std::string::npos);
 }
 
-TEST(Plan, NamesOfTablesAreThoseOfFiles) {
+TEST(TrialList, NamesOfTablesAreThoseOfFiles) {
   const auto named = [](const std::string& name) {
     return base + "[[table]]\nname = \"" + name +
            "\"\nrows = []\nmeasures = [\"energy_mean_wh\"]\n";
   };
-  EXPECT_NO_THROW(plan_of(named(std::string(100, 'x'))));
-  EXPECT_NE(complaint_of([&] { plan_of(named(std::string(300, 'x'))); }).find("takes at most 100"),
+  EXPECT_NO_THROW(listed(named(std::string(100, 'x'))));
+  EXPECT_NE(complaint_of([&] { listed(named(std::string(300, 'x'))); }).find("takes at most 100"),
             std::string::npos);
 }
 
-TEST(Plan, WithoutFactorsThereIsOneCell) {
-  const TrialList list = plan_of(base);
+TEST(TrialList, WithoutFactorsThereIsOneCell) {
+  const TrialList list = listed(base);
   EXPECT_EQ(list.groups().front().cells(), 1u);
   EXPECT_EQ(list.groups().front().title(0), "");
   EXPECT_EQ(list.trials(), 2u);
 }
 
-TEST(Plan, GroupsFollowOneAnotherEachWithItsReplications) {
+TEST(TrialList, GroupsFollowOneAnotherEachWithItsReplications) {
   const std::string group =
       "[[group]]\nname = \"NAME\"\nscenario = \"construction_square\"\nreplications = ";
   const auto named = [&](const std::string& name) {
@@ -101,7 +114,7 @@ TEST(Plan, GroupsFollowOneAnotherEachWithItsReplications) {
     return text.replace(text.find("NAME"), 4, name);
   };
   const TrialList list =
-      plan_of("replications = 4\n" + named("a") + "3\n" + named("b") + "0\n" + named("c") + "1\n");
+      listed("replications = 4\n" + named("a") + "3\n" + named("b") + "0\n" + named("c") + "1\n");
   std::vector<std::size_t> groups;
   for (const ListedTrial& trial : list.all_trials()) groups.push_back(trial.group);
   EXPECT_EQ(groups, (std::vector<std::size_t>{0, 0, 0, 1, 1, 1, 1, 2}));
@@ -109,8 +122,8 @@ TEST(Plan, GroupsFollowOneAnotherEachWithItsReplications) {
   EXPECT_EQ(list.title(list.trial(4)), "b, seed 2");
 }
 
-TEST(Plan, AFactorThatDoesNotApplyMakesNoCells) {
-  const TrialList list = plan_of(
+TEST(TrialList, AFactorThatDoesNotApplyMakesNoCells) {
+  const TrialList list = listed(
       base + behaviours +
       "[[factor]]\nkey = \"behaviour.assignment_registration.matching.sampled.delta_theta_deg\"\n"
       "values = [10, 45]\nonly = { behaviour = \"assignment_registration\" }\n");
@@ -125,26 +138,25 @@ TEST(Plan, AFactorThatDoesNotApplyMakesNoCells) {
   EXPECT_EQ(group.changes(1).size(), 2u);
 }
 
-TEST(Plan, ExcludedCombinationsAreNoCells) {
-  const TrialList list = plan_of(base + behaviours + periods +
-                                 "[[exclude]]\nbehaviour = \"rigid_registration\"\n"
-                                 "period_s = [15, 60]\n");
+TEST(TrialList, ExcludedCombinationsAreNoCells) {
+  const TrialList list = listed(base + behaviours + periods +
+                                "[[exclude]]\nbehaviour = \"rigid_registration\"\n"
+                                "period_s = [15, 60]\n");
   EXPECT_EQ(titles(list.groups().front()).front(), "behaviour = rigid_registration, period_s = 30");
   EXPECT_EQ(list.groups().front().cells(), 4u);
-  EXPECT_EQ(
-      complaint_of([] { plan_of(base + periods + "[[exclude]]\nperiod_s = [15, 30, 60]\n"); }),
-      "study.toml:1: every cell of the group is excluded");
+  EXPECT_EQ(complaint_of([] { listed(base + periods + "[[exclude]]\nperiod_s = [15, 30, 60]\n"); }),
+            "study.toml:1: every cell of the group is excluded");
   EXPECT_NE(complaint_of([] {
-              plan_of(base + periods + "[[exclude]]\nperiod = 15\n");
+              listed(base + periods + "[[exclude]]\nperiod = 15\n");
             }).find("exclude names \"period\", which is no factor; did you mean \"period_s\"?"),
             std::string::npos);
 }
 
-TEST(Plan, DrawnCellsAreNumberedFromOne) {
-  const TrialList list = plan_of(base +
-                                 "design.kind = \"latin_hypercube\"\n"
-                                 "design.latin_hypercube.samples = 5\n"
-                                 "[[factor]]\nkey = \"ping.period_s\"\nrange = [5, 60]\n");
+TEST(TrialList, DrawnCellsAreNumberedFromOne) {
+  const TrialList list = listed(base +
+                                "design.kind = \"latin_hypercube\"\n"
+                                "design.latin_hypercube.samples = 5\n"
+                                "[[factor]]\nkey = \"ping.period_s\"\nrange = [5, 60]\n");
   const TrialGroup& group = list.groups().front();
   EXPECT_TRUE(group.sampled());
   EXPECT_EQ(group.columns(), (std::vector<std::string>{"sample", "period_s"}));
@@ -154,10 +166,10 @@ TEST(Plan, DrawnCellsAreNumberedFromOne) {
   }
 }
 
-TEST(Plan, KeysTellAllTrialsApartAndDoNotDependOnTheOrderOfLevels) {
-  const TrialList list = plan_of(base + behaviours + periods);
-  const TrialList turned = plan_of(
-      base + behaviours + "[[factor]]\nkey = \"ping.period_s\"\nvalues = [60, 5, 30, 15]\n");
+TEST(TrialList, KeysTellAllTrialsApartAndDoNotDependOnTheOrderOfLevels) {
+  const TrialList list = listed(base + behaviours + periods);
+  const TrialList turned =
+      listed(base + behaviours + "[[factor]]\nkey = \"ping.period_s\"\nvalues = [60, 5, 30, 15]\n");
   const auto keys = [](const TrialList& of) {
     std::set<std::string> all;
     for (const ListedTrial& trial : of.all_trials()) {
@@ -169,8 +181,8 @@ TEST(Plan, KeysTellAllTrialsApartAndDoNotDependOnTheOrderOfLevels) {
   EXPECT_TRUE(std::ranges::includes(keys(turned), keys(list)));
 }
 
-TEST(Plan, ShardsPartTheTrialsEvenly) {
-  const TrialList list = plan_of(base + behaviours + periods);  // 12 trials
+TEST(TrialList, ShardsPartTheTrialsEvenly) {
+  const TrialList list = listed(base + behaviours + periods);  // 12 trials
   for (const int shards : {1, 2, 5, 12, 17}) {
     std::vector<std::size_t> all;
     std::size_t least = list.trials(), most = 0;
@@ -188,11 +200,10 @@ TEST(Plan, ShardsPartTheTrialsEvenly) {
   }
 }
 
-TEST(Plan, RefusesAFactorThatIsCalledLikeWhatEveryTrialHas) {
+TEST(TrialList, RefusesAFactorThatIsCalledLikeWhatEveryTrialHas) {
   for (const char* name : {"seed", "status", "time", "cell", "energy_mean_wh", "quality"}) {
     const std::string said = complaint_of([&] {
-      plan_of(base + "[[factor]]\nname = \"" + name +
-              "\"\nkey = \"ping.period_s\"\nvalues = [1]\n");
+      listed(base + "[[factor]]\nname = \"" + name + "\"\nkey = \"ping.period_s\"\nvalues = [1]\n");
     });
     EXPECT_TRUE(said.starts_with("study.toml:3: a factor cannot be called \"" + std::string(name)))
         << said;

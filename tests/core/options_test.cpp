@@ -135,10 +135,10 @@ TEST(Options, ReadNumbersUnderNamesOfOnesOwn) {
   const Setting written = write_options(schema_of<Everything>(), &read_back);
   EXPECT_EQ(reading(written).constants, read_back.constants);
 
-  EXPECT_EQ(complaint("constants", value(3.0)), "constants is a number; it takes a table of numbers");
+  EXPECT_EQ(complaint("constants", value(3.0)),
+            "constants is a number; it takes a table of numbers");
   EXPECT_EQ(complaint("constants.c", text("x")), "constants.c is a string; it takes a number");
-  EXPECT_EQ(complaint("constants.c", value(NAN)),
-            "constants.c is nan; it takes any finite number");
+  EXPECT_EQ(complaint("constants.c", value(NAN)), "constants.c is nan; it takes any finite number");
 
   const OptionPlace place = locate(schema_of<Everything>(), "constants.c");
   EXPECT_EQ(place.key, "constants.c");

@@ -203,9 +203,9 @@ TEST_P(ManyUnknowns, AreTheSameWhetherOrNotTheFunctionSaysOnWhichItDepends) {
   std::shared_ptr<const Layout> residuals;
   const Problem problem = layout(residuals);
   expect_the_minimum(
-      solved(GetParam(), least_squares_problem(problem.start,
-                                               {std::make_shared<const Dense>(residuals, 100),
-                                                nullptr, {}})),
+      solved(GetParam(),
+             least_squares_problem(problem.start,
+                                   {std::make_shared<const Dense>(residuals, 100), nullptr, {}})),
       problem);
 }
 

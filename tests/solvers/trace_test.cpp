@@ -48,7 +48,7 @@ TEST_P(Traced, NotesEachTimeThatTheLowestCostFell) {
 
 INSTANTIATE_TEST_SUITE_P(Solvers, Traced,
                          testing::Values("newton", "ipopt", "ceres.least_squares", "nlopt.slsqp",
-                                         "nlopt.nelder_mead", "multistart"),
+                                         "nlopt.neldermead", "multistart"),
                          [](const auto& tested) { return shoal::tests::test_name(tested.param); });
 
 TEST(Trace, OfARegistrationIsThatOfItsDescents) {

@@ -8,6 +8,7 @@ import of_models
 import of_study
 import over_ground
 import profiles
+import progress
 from recorded_run import NoRun, RecordedRun
 from stored_study import StoredStudy
 
@@ -33,7 +34,7 @@ NEEDS_PACKAGE = [name for name, draw in FIGURES.items() if draw.__module__ == "o
 def figures_of(place):
     """name -> what draws it."""
     if place.suffix == ".csv" and place.is_file():
-        return {place.stem: lambda rows=profile_rows(place): profiles.profiles(rows)}
+        return dict(figures_of_solvers(place))
     if (place / "study.toml").is_file():
         study = StoredStudy(place)
         return {name: lambda table=table: of_study.figure_of(table, study.request_of(table))
@@ -45,12 +46,22 @@ def figures_of(place):
             if of_models.shoal or name not in NEEDS_PACKAGE}
 
 
-def profile_rows(file):
-    with open(file, newline="", encoding="utf-8") as lines:
-        rows = list(csv.DictReader(lines))
-    if not rows or not {"family", "measure", "solver", "factor", "share"} <= set(rows[0]):
-        raise NoRun(f"{file} holds no performance profiles; shoal solve --profiles writes them")
-    return rows
+def figures_of_solvers(file):
+    """What shoal solve --profiles wrote: the profiles, and if they stand beside, progress curves."""
+    beside = file.with_name(f"{file.stem}_progress{file.suffix}")
+    for each in (file, beside):
+        if each != file and not each.is_file():
+            continue
+        with open(each, newline="", encoding="utf-8") as lines:
+            rows = list(csv.DictReader(lines))
+        columns = set(rows[0]) if rows else set()
+        if {"family", "measure", "solver", "factor", "share"} <= columns:
+            yield each.stem, lambda rows=rows: profiles.profiles(rows)
+        elif {"family", "measure", "solver", "effort", "left", "left_low", "left_high"} <= columns:
+            yield each.stem, lambda rows=rows: progress.progress(rows)
+        else:
+            raise NoRun(f"{each} holds neither performance profiles nor progress curves; "
+                        "shoal solve --profiles writes both")
 
 
 def drawn(draw):

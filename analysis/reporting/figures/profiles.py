@@ -12,10 +12,7 @@ def profiles(rows):
     """Dolan and Moré 2002: the share of the problems that a solver solves at no more than so many
     times the price of the best."""
     kinds = list(dict.fromkeys((row["family"], row["measure"]) for row in rows))
-    solvers = list(dict.fromkeys(row["solver"] for row in rows))
-    if len(solvers) > MOST:
-        raise panels.TooMuch(f"there are {len(solvers)} solvers, and a figure shows at most "
-                             f"{MOST}; choose some with shoal solve --solvers")
+    solvers = few_solvers(rows)
     across = panels.across(len(kinds)) if style.wide() else 1
     figure, axes = panels.grid(len(kinds), across, panels.panel_height(max(across, 2)))
     handles = {}
@@ -36,6 +33,14 @@ def profiles(rows):
         ax.set_xlabel(f"Times the {names.plain(measure)} of the best")
     legends.legend_above(figure, [handles[solver] for solver in solvers])
     return figure
+
+
+def few_solvers(rows):
+    solvers = list(dict.fromkeys(row["solver"] for row in rows))
+    if len(solvers) > MOST:
+        raise panels.TooMuch(f"there are {len(solvers)} solvers, and a figure shows at most "
+                             f"{MOST}; choose some with shoal solve --solvers")
+    return solvers
 
 
 def rise(steps):
