@@ -1,6 +1,6 @@
 #include "shoal/scenarios/mission_time.hpp"
 
-#include "shoal/scenarios/currents/netcdf_time.hpp"
+#include "shoal/core/calendar.hpp"
 
 namespace shoal::scenarios {
 

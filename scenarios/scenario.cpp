@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "shoal/core/calendar.hpp"
 #include "shoal/core/text.hpp"
-#include "shoal/scenarios/currents/netcdf_time.hpp"
 #include "shoal/scenarios/inheritance.hpp"
 #include "shoal/scenarios/library_path.hpp"
 #include "shoal/scenarios/moved_keys.hpp"

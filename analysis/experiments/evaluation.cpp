@@ -18,8 +18,8 @@ std::unique_ptr<Evaluation> made(const std::string& model) {
   return known.make(model, Setting{}, model);
 }
 
-formations::CsvColumns columns_of(const Evaluation& model) {
-  formations::CsvColumns columns{.pass_over_others = true};
+CsvColumns columns_of(const Evaluation& model) {
+  CsvColumns columns{.pass_over_others = true};
   for (const Evaluation::Column& input : model.inputs()) {
     (input.optional ? columns.optional : columns.required).push_back(input.name);
   }
@@ -38,7 +38,7 @@ void append_line(std::string& text, std::span<const std::string> fields) {
 
 std::string evaluated(const std::string& model, const std::string& file) {
   const auto evaluation = made(model);
-  const formations::CsvTable table({file, {}}, columns_of(*evaluation));
+  const CsvTable table({file, {}}, columns_of(*evaluation));
 
   std::vector<std::string> fields;
   for (const Evaluation::Column& output : evaluation->outputs()) fields.push_back(output.name);
@@ -86,7 +86,7 @@ std::string evaluations_text() {
          "over. A row is printed for every row, as CSV; numbers read back as the same bits.";
 }
 
-double positive(const formations::CsvTable& table, std::size_t row, const std::string& column) {
+double positive(const CsvTable& table, std::size_t row, const std::string& column) {
   const double number = table.number(row, column);
   if (number > 0.0) return number;
   throw InputError(table.origin(row),

@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
+#include "shoal/core/csv_table.hpp"
 #include "shoal/core/registry.hpp"
-#include "shoal/formations/csv_table.hpp"
 
 namespace shoal::analysis {
 
@@ -34,8 +34,7 @@ class Evaluation {
 
   /// Appends one number for every output. Throws InputError, with the origin of the row, for inputs
   /// that the model cannot take.
-  virtual void evaluate(const formations::CsvTable& table, std::size_t row,
-                        std::vector<double>& out) const = 0;
+  virtual void evaluate(const CsvTable& table, std::size_t row, std::vector<double>& out) const = 0;
 };
 
 /// The outputs of a model for every row of a CSV file, as CSV with a header. Columns of the file
@@ -49,6 +48,6 @@ std::string evaluated(const std::string& model, const std::string& file);
 std::string evaluations_text();
 
 /// A number above zero of a row; else throws InputError that names the line.
-double positive(const formations::CsvTable& table, std::size_t row, const std::string& column);
+double positive(const CsvTable& table, std::size_t row, const std::string& column);
 
 }  // namespace shoal::analysis

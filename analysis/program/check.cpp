@@ -8,8 +8,8 @@
 #include "shoal/analysis/experiments/study/cell_scenarios.hpp"
 #include "shoal/analysis/experiments/trial.hpp"
 #include "shoal/analysis/tables/table.hpp"
+#include "shoal/core/csv_table.hpp"
 #include "shoal/core/text.hpp"
-#include "shoal/formations/csv_table.hpp"
 #include "shoal/scenarios/currents/netcdf_report.hpp"
 #include "shoal/scenarios/currents/netcdf_statistics.hpp"
 #include "shoal/scenarios/inheritance.hpp"
@@ -85,8 +85,8 @@ fs::path named(const std::string& name) {
 }
 
 void check_csv(const fs::path& file) {
-  const formations::CsvTable table(
-      {file, {}}, {.required = {"name", "x_m", "y_m"}, .optional = {"heading_deg"}});
+  const CsvTable table({file, {}},
+                       {.required = {"name", "x_m", "y_m"}, .optional = {"heading_deg"}});
   std::vector<Eigen::Vector2d> slots;
   const std::vector<double> x = table.numbers("x_m");
   const std::vector<double> y = table.numbers("y_m");

@@ -6,7 +6,7 @@
 #include "shoal/analysis/experiments/measure.hpp"
 #include "shoal/analysis/experiments/results/cells.hpp"
 #include "shoal/analysis/experiments/study/study_files.hpp"
-#include "shoal/analysis/tables/csv_line.hpp"
+#include "shoal/core/csv_line.hpp"
 #include "shoal/core/text.hpp"
 
 namespace shoal::analysis {

@@ -2,8 +2,8 @@
 #include <cctype>
 #include <set>
 
-#include "shoal/analysis/tables/csv_line.hpp"
 #include "shoal/analysis/tables/layout.hpp"
+#include "shoal/core/csv_line.hpp"
 #include "shoal/core/text.hpp"
 
 namespace shoal::analysis {

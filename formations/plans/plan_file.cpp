@@ -1,4 +1,4 @@
-#include "shoal/formations/csv_table.hpp"
+#include "shoal/core/csv_table.hpp"
 #include "shoal/formations/plan.hpp"
 
 namespace shoal::formations {

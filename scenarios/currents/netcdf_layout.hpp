@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
+#include "shoal/core/calendar.hpp"
 #include "shoal/scenarios/currents/netcdf_file.hpp"
-#include "shoal/scenarios/currents/netcdf_time.hpp"
 
 namespace shoal::scenarios {
 

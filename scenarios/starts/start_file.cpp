@@ -1,7 +1,7 @@
 #include <optional>
 
 #include "shoal/core/angles.hpp"
-#include "shoal/formations/csv_table.hpp"
+#include "shoal/core/csv_table.hpp"
 #include "shoal/scenarios/library_path.hpp"
 #include "shoal/scenarios/starts/start.hpp"
 
@@ -26,9 +26,8 @@ class StartFile final : public StartSource {
     if (path.path.empty()) {
       throw InputError(origin, "this start needs a file; set swarm.start.file.path");
     }
-    const formations::CsvTable table(
-        {resolved(path), path.origin},
-        {.required = {"name", "x_m", "y_m"}, .optional = {"heading_deg"}});
+    const CsvTable table({resolved(path), path.origin},
+                         {.required = {"name", "x_m", "y_m"}, .optional = {"heading_deg"}});
     std::vector<std::optional<Start>> found(static_cast<std::size_t>(plan.size()));
     for (std::size_t row = 0; row < table.rows(); ++row) {
       const std::string& name = table.text(row, "name");

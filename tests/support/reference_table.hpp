@@ -3,7 +3,7 @@
 #include <cstdlib>
 #include <string>
 
-#include "shoal/formations/csv_table.hpp"
+#include "shoal/core/csv_table.hpp"
 
 namespace shoal::tests {
 
@@ -25,7 +25,7 @@ class ReferenceTable {
   std::string line(std::size_t row) const { return table_.origin(row).prefix(); }
 
  private:
-  formations::CsvTable table_;
+  CsvTable table_;
 };
 
 }  // namespace shoal::tests

@@ -25,8 +25,7 @@ struct ClampEvaluation final : Evaluation {
             {"f_perp_out", "m/s2, admissible force across it"}};
   }
 
-  void evaluate(const formations::CsvTable& table, std::size_t row,
-                std::vector<double>& out) const override {
+  void evaluate(const CsvTable& table, std::size_t row, std::vector<double>& out) const override {
     formations::PerformanceEnvelope envelope{
         .speed_max_m_s = positive(table, row, "u_max"),
         .acceleration_max_m_s2 = positive(table, row, "du_max"),

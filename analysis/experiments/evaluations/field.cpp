@@ -40,8 +40,7 @@ struct FieldEvaluation final : Evaluation {
             {"vertex_at_cxcy_y", "m/s2"}};
   }
 
-  void evaluate(const formations::CsvTable& table, std::size_t row,
-                std::vector<double>& out) const override {
+  void evaluate(const CsvTable& table, std::size_t row, std::vector<double>& out) const override {
     const auto obstacle = obstacle_of(table, row, "kind", "a");
     const Vector2d place(table.number(row, "x"), table.number(row, "y"));
     const Vector2d velocity(table.number(row, "vx"), table.number(row, "vy"));

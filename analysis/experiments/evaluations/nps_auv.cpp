@@ -43,8 +43,7 @@ struct NpsAuvEvaluation final : Evaluation {
     return columns;
   }
 
-  void evaluate(const formations::CsvTable& table, std::size_t row,
-                std::vector<double>& out) const override {
+  void evaluate(const CsvTable& table, std::size_t row, std::vector<double>& out) const override {
     scenarios::VehicleState x;
     for (std::size_t i = 0; i < states.size(); ++i) {
       x(static_cast<Eigen::Index>(i)) = table.number(row, states[i]);

@@ -22,8 +22,7 @@ struct ObstacleEvaluation final : Evaluation {
              "psi's axis before its side"}};
   }
 
-  void evaluate(const formations::CsvTable& table, std::size_t row,
-                std::vector<double>& out) const override {
+  void evaluate(const CsvTable& table, std::size_t row, std::vector<double>& out) const override {
     const auto obstacle = obstacle_of(table, row, "shape", "a_or_r");
     const Eigen::Vector2d place(table.number(row, "px"), table.number(row, "py"));
     const formations::Proximity near = obstacle->nearest(place);

@@ -3,15 +3,15 @@
 #include <memory>
 #include <string>
 
-#include "shoal/formations/csv_table.hpp"
+#include "shoal/core/csv_table.hpp"
 #include "shoal/formations/obstacle.hpp"
 
 namespace shoal::analysis {
 
 /// The obstacle of a row with the columns cx, cy, b, psi and the named ones for the shape (circle,
 /// rectangle or rect, ellipse) and for the first size. Throws InputError that names the line.
-std::unique_ptr<formations::Obstacle> obstacle_of(const formations::CsvTable& table,
-                                                  std::size_t row, const std::string& shape_column,
+std::unique_ptr<formations::Obstacle> obstacle_of(const CsvTable& table, std::size_t row,
+                                                  const std::string& shape_column,
                                                   const std::string& size_column);
 
 inline constexpr const char* shape_meaning = "circle, rectangle (or rect) or ellipse";

@@ -1,4 +1,4 @@
-#include "shoal/formations/csv_table.hpp"
+#include "shoal/core/csv_table.hpp"
 
 #include <algorithm>
 #include <fstream>
@@ -7,7 +7,7 @@
 
 #include "shoal/core/text.hpp"
 
-namespace shoal::formations {
+namespace shoal {
 namespace {
 
 std::string content_of(const FilePath& file) {
@@ -163,4 +163,4 @@ std::vector<double> CsvTable::numbers(const std::string& column) const {
   return all;
 }
 
-}  // namespace shoal::formations
+}  // namespace shoal

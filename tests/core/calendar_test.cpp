@@ -1,4 +1,4 @@
-#include "shoal/scenarios/currents/netcdf_time.hpp"
+#include "shoal/core/calendar.hpp"
 
 #include <gtest/gtest.h>
 #include <rapidcheck.h>
@@ -7,7 +7,7 @@
 
 #include "shoal/core/error.hpp"
 
-namespace shoal::scenarios {
+namespace shoal {
 namespace {
 
 double days_between(const char* from, const char* to, Calendar calendar) {
@@ -127,4 +127,4 @@ TEST(Calendars, OfUnknownNameAreRefused) {
 }
 
 }  // namespace
-}  // namespace shoal::scenarios
+}  // namespace shoal

@@ -6,7 +6,7 @@
 
 #include "shoal/core/options.hpp"
 
-namespace shoal::formations {
+namespace shoal {
 
 /// What a CSV file must and may have; other columns are errors, or passed over.
 struct CsvColumns {
@@ -54,4 +54,4 @@ class CsvTable {
   std::vector<std::string> fields_;  // row by row
 };
 
-}  // namespace shoal::formations
+}  // namespace shoal

@@ -4,7 +4,7 @@
 #include <string>
 #include <string_view>
 
-namespace shoal::scenarios {
+namespace shoal {
 
 /// The calendars of the CF conventions (CF-1.8, sec. 4.4.1).
 enum class Calendar {
@@ -55,4 +55,4 @@ TimeUnits parse_time_units(std::string_view units, Calendar calendar);
 /// True for `<something> since <something>`.
 bool looks_like_time_units(std::string_view units);
 
-}  // namespace shoal::scenarios
+}  // namespace shoal

@@ -1,6 +1,4 @@
-#include "shoal/scenarios/currents/netcdf_time.hpp"
-
-#include <fmt/format.h>
+#include "shoal/core/calendar.hpp"
 
 #include <array>
 #include <charconv>
@@ -11,7 +9,7 @@
 #include "shoal/core/error.hpp"
 #include "shoal/core/text.hpp"
 
-namespace shoal::scenarios {
+namespace shoal {
 namespace {
 
 constexpr double seconds_per_day = 86400.0;
@@ -311,16 +309,25 @@ Instant parse_instant(std::string_view text, Calendar calendar) {
   return Instant{day_number(*date, calendar), 0.0}.plus(seconds);
 }
 
+namespace {
+
+std::string padded(std::int64_t number, std::size_t digits) {
+  const std::string text = std::to_string(number);
+  return std::string(text.size() < digits ? digits - text.size() : 0, '0') + text;
+}
+
+}  // namespace
+
 std::string iso_text(const Instant& instant, Calendar calendar) {
   // Rounded to the millisecond first, so that 59.9999 s is not written as 60.
   const auto milliseconds = static_cast<std::int64_t>(std::llround(instant.second * 1000.0));
   const std::int64_t per_day = 86'400'000;
   const Date date = date_of(instant.day + milliseconds / per_day, calendar);
   const std::int64_t within = milliseconds % per_day;
-  std::string text =
-      fmt::format("{:04}-{:02}-{:02}T{:02}:{:02}:{:02}", date.year, date.month, date.day,
-                  within / 3'600'000, within / 60'000 % 60, within / 1000 % 60);
-  if (within % 1000 != 0) text += fmt::format(".{:03}", within % 1000);
+  std::string text = padded(date.year, 4) + '-' + padded(date.month, 2) + '-' +
+                     padded(date.day, 2) + 'T' + padded(within / 3'600'000, 2) + ':' +
+                     padded(within / 60'000 % 60, 2) + ':' + padded(within / 1000 % 60, 2);
+  if (within % 1000 != 0) text += '.' + padded(within % 1000, 3);
   return text + "Z";
 }
 
@@ -357,4 +364,4 @@ TimeUnits parse_time_units(std::string_view units, Calendar calendar) {
            : ""));
 }
 
-}  // namespace shoal::scenarios
+}  // namespace shoal

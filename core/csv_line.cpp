@@ -1,6 +1,6 @@
-#include "shoal/analysis/tables/csv_line.hpp"
+#include "shoal/core/csv_line.hpp"
 
-namespace shoal::analysis {
+namespace shoal {
 namespace {
 
 std::string quoted(const std::string& text) {
@@ -19,4 +19,4 @@ std::string csv_line(const std::vector<std::string>& fields) {
   return joined + "\n";
 }
 
-}  // namespace shoal::analysis
+}  // namespace shoal
