@@ -7,8 +7,13 @@ void ProblemRecorder::OfVehicle::planned(const formations::Neighbourhood& seen,
   if (!solved_) return;
   solved_ = false;
   const std::size_t k = situations_++;
-  if (k % stride_ == 0 && kept_ == most_) keep_every_second();
-  if (k % stride_ != 0) return;
+  if (k != next_) return;
+  next_ += stride_;
+  if (kept_ == most_) {
+    keep_every_second();
+    if (k % stride_ != 0) return;
+    next_ = k + stride_;
+  }
   if (kept_ == noted_.size()) noted_.emplace_back();
   Situation& situation = noted_[kept_++];
   situation.own_slot = seen.own_slot;

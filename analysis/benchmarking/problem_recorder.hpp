@@ -54,6 +54,7 @@ class ProblemRecorder {
     std::vector<Situation> noted_;  // beyond kept_: room that is used again
     std::size_t kept_ = 0;
     std::size_t stride_ = 1;
+    std::size_t next_ = 0;  // of the situations, to be kept
     std::size_t situations_ = 0;
     bool solved_ = false;  // a problem, since the last plan
   };
