@@ -33,9 +33,10 @@ void print_option(const Option& option, const Setting& fallback, const std::stri
              value_text(fallback));
 }
 
-void print_choice(const Option& option, const Setting& fallback, const std::string& key) {
-  fmt::print("{}.kind\n    {}; default {}; one of\n", key, option.meaning,
-             value_text(*fallback.find("kind")));
+/// `fallback`: nullptr of a family that is chosen in no scenario.
+void print_choice(const Option& option, const Setting* fallback, const std::string& key) {
+  fmt::print("{}.kind\n    {}; {}one of\n", key, option.meaning,
+             fallback ? "default " + value_text(*fallback->find("kind")) + "; " : "");
   for (const MemberInfo& member : option.choice->members()) {
     fmt::print("      {:<26} {}\n", member.name, member.summary);
   }
@@ -49,7 +50,7 @@ void print_entry(const Option& option, const Setting& fallback, const std::strin
     fmt::print("{}: {}{}\n", key, option.meaning, option.given ? "; may be left out" : "");
     print_entries(*option.table, fallback, key);
   } else if (option.choice) {
-    print_choice(option, fallback, key);
+    print_choice(option, &fallback, key);
   } else {
     print_option(option, fallback, key);
   }
@@ -74,7 +75,7 @@ void print_member(const RegistryBase& family, const MemberInfo& member, const st
 
 void print_key(const Schema& schema, const std::string& key) {
   const OptionPlace place = locate(schema, key);
-  if (place.is_kind) return print_choice(*place.option, *place.fallback, place.key);
+  if (place.is_kind) return print_choice(*place.option, place.fallback, place.key);
   if (place.member) return print_member(*place.option->choice, *place.member, place.key);
   if (!place.fallback) {  // one of the numbers that a user names
     fmt::print("{}\n    {}\n    takes {}\n", place.key, place.option->meaning,

@@ -201,7 +201,77 @@ std::string notes(const std::vector<Note>& notes) {
   return printed;
 }
 
-/// A float, scaled down if it is wider than the lines of the paper.
+/// About how wide a column is set (pt), of ten-point type.
+double width_of(const Table& table, const Layout& layout, std::size_t column) {
+  constexpr double character = 5.0, separation = 12.0, signs = 18.0;
+  const LaidColumn& laid = layout.columns[column];
+  double numbers = 0.0;
+  for (const Extent& extent : laid.extents) {
+    const auto characters = static_cast<double>(extent.before + extent.after);
+    numbers += characters * character + (numbers > 0.0 && characters > 0.0 ? signs : 0.0);
+  }
+  if (laid.reached) numbers += 10.0 * character;
+  const std::size_t text =
+      std::max(longest_text(table, column),
+               with_unit(table.columns[column].header, table.columns[column].unit).size());
+  return std::max(numbers, character * static_cast<double>(text)) + separation;
+}
+
+/// Columns that stand below one another where all in one row would be set too small. What a row is
+/// called begins each part; columns under one header stay together.
+std::vector<std::vector<std::size_t>> parts_of(const Table& table, const Layout& layout) {
+  constexpr double most = 345.0 / 0.7;  // pt: a line of an article's, and type of seven points
+  std::vector<std::size_t> labels;
+  double of_labels = 0.0;
+  std::size_t c = 0;
+  for (; c < layout.columns.size() && !layout.columns[c].numeric(); ++c) {
+    labels.push_back(c);
+    of_labels += width_of(table, layout, c);
+  }
+  std::vector<std::vector<std::size_t>> parts;
+  double width = most;
+  while (c < layout.columns.size()) {
+    std::size_t end = c + 1;
+    for (const Span& span : layout.spans) {
+      if (span.first == c) end = c + span.count;
+    }
+    double of_group = 0.0;
+    for (std::size_t k = c; k < end; ++k) of_group += width_of(table, layout, k);
+    const bool apart = of_labels + of_group > most;  // too wide even alone
+    for (; c < end; ++c) {
+      const double own = apart ? width_of(table, layout, c) : of_group;
+      if (parts.empty() || width + own > most) {
+        parts.push_back(labels);
+        width = of_labels;
+      }
+      width += own;
+      parts.back().push_back(c);
+      while (!apart && c + 1 < end) parts.back().push_back(++c);
+    }
+  }
+  return parts;
+}
+
+Table part_of(const Table& table, const std::vector<std::size_t>& columns) {
+  Table part;
+  for (const std::size_t c : columns) part.columns.push_back(table.columns[c]);
+  for (const auto& row : table.rows) {
+    part.rows.emplace_back();
+    for (const std::size_t c : columns) part.rows.back().push_back(row[c]);
+  }
+  return part;
+}
+
+/// The box tells how wide the notes may be.
+std::string box_of(const Table& table, const Layout& layout) {
+  return "  \\sbox0{%\n" + tabular(table, layout) + "}%\n" +
+         "  \\ifdim\\wd0>\\linewidth\\sbox0{\\resizebox{\\linewidth}{!}{\\usebox0}}\\fi\n"
+         "  \\begin{minipage}{\\wd0}\n    \\usebox0\n" +
+         notes(layout.notes) + "  \\end{minipage}\n";
+}
+
+/// A float, scaled down if it is a little wider than the lines of the paper, and parted if it is
+/// much wider.
 std::string boxed(const Table& table, const Layout& layout, const std::string& label) {
   std::string printed =
       "% \\usepackage{booktabs,graphicx,siunitx}\n\\begin{table}\n  \\centering\n"
@@ -214,11 +284,15 @@ std::string boxed(const Table& table, const Layout& layout, const std::string& l
   if (std::ranges::any_of(layout.columns, &LaidColumn::best)) {
     printed += "  \\def\\best#1#2{\\llap{\\boldmath$#1$}\\rlap{\\boldmath$#2$}}%\n";
   }
-  // The box tells how wide the notes may be.
-  printed += "  \\sbox0{%\n" + tabular(table, layout) + "}%\n";
-  printed += "  \\ifdim\\wd0>\\linewidth\\sbox0{\\resizebox{\\linewidth}{!}{\\usebox0}}\\fi\n";
-  printed += "  \\begin{minipage}{\\wd0}\n    \\usebox0\n" + notes(layout.notes);
-  return printed + "  \\end{minipage}\n\\end{table}\n";
+  const std::vector<std::vector<std::size_t>> parts = parts_of(table, layout);
+  if (parts.size() < 2) return printed + box_of(table, layout) + "\\end{table}\n";
+  for (const std::vector<std::size_t>& columns : parts) {
+    Table part = part_of(table, columns);
+    if (&columns == &parts.back()) part.notes = table.notes;
+    if (&columns != &parts.front()) printed += "  \\par\\medskip\n";
+    printed += box_of(part, Layout(part));
+  }
+  return printed + "\\end{table}\n";
 }
 
 /// Sentences are broken into lines, and the table into pages.

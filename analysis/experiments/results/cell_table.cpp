@@ -166,10 +166,15 @@ class CellTable {
       table.columns.push_back({.header = heading_of(axis), .unit = axis.unit, .name = axis.name});
     }
     for (const Place& place : across) {
-      std::string labels, name;
+      std::string labels, spelled, name;
       for (std::size_t d = 0; d < columns_; ++d) {
-        labels += (d ? ", " : "") + dimensions[d].labels[place[d]];
-        name += dimensions[d].labels[place[d]] + "_";
+        const std::string& label = dimensions[d].labels[place[d]];
+        labels += (d ? ", " : "") + label;
+        // A word speaks for itself; a number is one of something.
+        spelled += (d ? ", " : "") + (parsed_number(label) ? dimensions[d].name + " " : "") + label;
+        if (parsed_number(label) && !dimensions[d].unit.empty())
+          spelled += " " + dimensions[d].unit;
+        name += label + "_";
       }
       for (const Quantity& quantity : quantities_) {
         Column column{
@@ -181,7 +186,7 @@ class CellTable {
           column.group_unit = dimensions[0].unit;
           for (std::size_t d = 1; d < columns_; ++d) column.group += ", " + dimensions[d].name;
         } else if (columns_ > 0) {
-          column.group = labels;
+          column.group = spelled;
         }
         table.columns.push_back(std::move(column));
       }
@@ -255,21 +260,22 @@ class CellTable {
       if (floor_) table.notes.push_back(*floor_);
     }
     if (events_) {
-      table.notes.push_back(
-          "Times to an event: restricted means" + horizon_text() +
-          ", at which trials count that never saw it; in brackets, how many did.");
+      table.notes.push_back(horizons_.empty()
+                                ? "Times to an event: means; all trials saw it."
+                                : "Times to an event: restricted means" + horizon_text() +
+                                      ", at which trials count that never saw it; in brackets, how "
+                                      "many did.");
     }
-    if (remarked_ > 0) {
-      table.notes.push_back((request_.series.empty()
-                                 ? ""
-                                 : fmt::format("{} of {} cells are so. ", remarked_, cells_)) +
-                            note_on_shapes());
+    if (remarked_ > 0 && request_.series.empty()) table.notes.push_back(note_on_shapes());
+    if (remarked_ > 0 && !request_.series.empty()) {
+      table.notes.push_back(fmt::format(
+          "Of {} cells, {} are not of one symmetric kind (dip test and skewness, each at 1 %).",
+          cells_, remarked_));
     }
   }
 
   /// Up to when.
   std::string horizon_text() const {
-    if (horizons_.empty()) return " (all trials saw it)";
     if (horizons_.size() > 1) return ", up to the end of each cell's watch";
     return " up to " + shortest(*horizons_.begin()) + " s";
   }
