@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "shoal/core/error.hpp"
+#include "shoal/core/lower_case.hpp"
 #include "shoal/core/text.hpp"
 
 namespace shoal {
@@ -237,12 +238,6 @@ constexpr std::array<CalendarName, 9> calendar_names{
      {"366_day", Calendar::all_leap},
      {"360_day", Calendar::days_360}}};
 
-std::string lower(std::string_view text) {
-  std::string lowered(text);
-  for (char& c : lowered) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
-  return lowered;
-}
-
 }  // namespace
 
 Instant Instant::plus(double seconds) const {
@@ -270,7 +265,7 @@ double Instant::since(const Instant& other) const {
 Calendar calendar_named(std::string_view name) {
   if (name.empty()) return Calendar::standard;
   for (const CalendarName& known : calendar_names) {
-    if (known.name == lower(name)) return known.calendar;
+    if (known.name == lower_case(name)) return known.calendar;
   }
   std::vector<std::string> names;
   names.reserve(std::size(calendar_names));
@@ -332,11 +327,11 @@ std::string iso_text(const Instant& instant, Calendar calendar) {
 }
 
 bool looks_like_time_units(std::string_view units) {
-  return lower(units).find(" since ") != std::string::npos;
+  return lower_case(units).find(" since ") != std::string::npos;
 }
 
 TimeUnits parse_time_units(std::string_view units, Calendar calendar) {
-  const std::string lowered = lower(units);
+  const std::string lowered = lower_case(units);
   const std::size_t since = lowered.find(" since ");
   if (since == std::string::npos) {
     throw InputError("the time units \"" + std::string(units) +

@@ -111,6 +111,26 @@ std::string set_summary(const std::string& name) {
   return line.starts_with('#') ? std::string(trimmed(line.substr(1))) : "";
 }
 
+void require_no_scenario_left_out(const Setting& settings, const Setting& changes) {
+  const Setting* before = settings.find(inherits_key);
+  const Setting* after = changes.find(inherits_key);
+  if (!before || !after) return;
+  const std::vector<std::string> sets = library_sets();
+  std::vector<std::string> kept;
+  for (const Setting& name : inherited_names(*after))
+    kept.push_back(std::get<std::string>(name.value));
+  for (const Setting& name : inherited_names(*before)) {
+    const auto& text = std::get<std::string>(name.value);
+    if (std::ranges::find(sets, text) != sets.end()) continue;
+    if (std::ranges::find(kept, text) != kept.end()) continue;
+    throw InputError(after->origin, std::string(inherits_key) + " would leave out " + text +
+                                        ", from which the scenario takes what it does not say; "
+                                        "write it into the list, as " +
+                                        inherits_key + " = [\"" + text + "\", \"" +
+                                        (kept.empty() ? "SET" : kept.back()) + "\"]");
+  }
+}
+
 std::vector<Setting> inherited_names(const Setting& inherits) {
   std::vector<Setting> names;
   if (const auto* list = std::get_if<Setting::List>(&inherits.value)) {

@@ -88,7 +88,7 @@ void QualityOptions::declare(Options<QualityOptions>& o) {
          "nearest to them (the author's program)");
   o.number("tolerance_m", &Q::tolerance_m, "m", above(0),
            "how far above its proven lower bound the quality may be, if alignment is \"rigid\"");
-  o.integer("budget", &Q::budget, "", in(1, 1e15),
+  o.integer("budget", &Q::budget, "", in(1, 1e10),
             "distances looked at before the proof is given up with a wider gap, for one instant, "
             "if alignment is \"rigid\"");
   o.number("delta_theta_deg", &Q::delta_theta_deg, "deg", solvers::delta_theta_range_deg(),

@@ -12,6 +12,7 @@
 
 #include "shoal/core/nesting.hpp"
 #include "shoal/core/text.hpp"
+#include "shoal/scenarios/inheritance.hpp"
 
 namespace shoal::scenarios {
 namespace {
@@ -156,6 +157,11 @@ void apply_set(Setting& root, const std::string& assignment) {
 
   std::optional<Setting> value = toml_value(text, origin);
   if (!value) value = Setting{text, origin};
+  if (key == inherits_key) {
+    Setting changes;
+    assign(changes, key, *value);
+    require_no_scenario_left_out(root, changes);
+  }
   Setting* known = root.find_path(key);
   if (known && known->is_table() && value->is_table()) {
     overlay(*known, std::move(*value));

@@ -48,6 +48,8 @@ struct SweepArguments {
 // Each command prints to stdout, throws InputError or SystemError, and knows nothing of CLI11.
 void run(const RunArguments& arguments);
 void list(const std::string& family);
+/// Whether it is what list() lists, in the singular or the plural.
+bool is_listed(const std::string& family);
 void describe(const std::string& name_or_key);
 void check(const std::vector<std::string>& files);
 void corpus(const CorpusArguments& arguments);

@@ -7,6 +7,7 @@
 #include "shoal/analysis/experiments/measure.hpp"
 #include "shoal/analysis/experiments/study/file_parts.hpp"
 #include "shoal/analysis/experiments/study/study.hpp"
+#include "shoal/core/lower_case.hpp"
 #include "shoal/core/option_place.hpp"
 #include "shoal/core/text.hpp"
 #include "shoal/core/whole_file.hpp"
@@ -106,7 +107,7 @@ bool describe_family(const std::string& name, std::vector<std::string>& known) {
     if (first != family->family()) continue;
     const Schema& scenario = schema_of<scenarios::Scenario>();
     const std::string key = key_of(*family, scenario);
-    if (first == name) {
+    if (first == name || (key.empty() && name == first + ".kind")) {
       list(first);
       if (!key.empty()) fmt::print("chosen by {}.kind\n", key);
     } else if (!key.empty()) {
@@ -134,6 +135,37 @@ bool describe_inherits(const std::string& name, std::vector<std::string>& known)
   return true;
 }
 
+/// The keys of a schema, at any depth, that end with this name. `above`: the families whose
+/// members' options are being looked through, which may choose one another.
+void find_keys(const Schema& schema, const std::string& path, const std::string& name,
+               std::vector<const RegistryBase*> above, std::vector<std::string>& found) {
+  for (const Option& option : schema.options) {
+    const std::string key = dotted(path, option.name);
+    if (option.name == name) found.push_back(key);
+    if (option.table) find_keys(*option.table, key, name, above, found);
+    if (!option.choice || std::ranges::find(above, option.choice) != above.end()) continue;
+    above.push_back(option.choice);
+    for (const MemberInfo& member : option.choice->members()) {
+      find_keys(member.schema(), key + "." + member.name, name, above, found);
+    }
+    above.pop_back();
+  }
+}
+
+/// An option by its last name, of which there may be several.
+bool describe_last_name(const std::string& name) {
+  std::vector<std::string> of_scenarios, of_parts;
+  find_keys(schema_of<scenarios::Scenario>(), "", name, {}, of_scenarios);
+  for (const analysis::FilePart& part : analysis::file_parts()) {
+    const Option* option = part.schema.find(name);
+    if (option) of_parts.push_back(std::string(part.name) + "." + name);
+  }
+  for (const std::string& key : of_scenarios) print_key(schema_of<scenarios::Scenario>(), key);
+  std::vector<std::string> ignored;
+  for (const std::string& key : of_parts) describe_part(key, ignored);
+  return !of_scenarios.empty() || !of_parts.empty();
+}
+
 }  // namespace
 
 void describe(const std::string& name) {
@@ -150,7 +182,10 @@ void describe(const std::string& name) {
   found = found || describe_file(name, scenarios::library_sets(), scenarios::set_file, known);
   found = found || describe_file(name, analysis::library_studies(), analysis::find_study, known);
   found = found || describe_inherits(name, known);
+  if (!found && is_listed(name)) return list(name);
+  found = found || describe_last_name(name);
   if (found) return;
+  if (const std::string small = lower_case(name); small != name) return describe(small);
   // What begins like a key is one that is wrong, unless members are called like that.
   const bool begins_a_member = std::ranges::any_of(
       known, [&](const std::string& other) { return other.starts_with(first + "."); });

@@ -1,5 +1,8 @@
 #include <fmt/core.h>
 
+#include <algorithm>
+#include <array>
+
 #include "commands.hpp"
 #include "shoal/analysis/experiments/measure.hpp"
 #include "shoal/analysis/experiments/study/study.hpp"
@@ -64,14 +67,26 @@ std::string plural(const std::string& family) {
   return family + (family.ends_with('s') ? "es" : "s");
 }
 
+bool is_asked_for(const std::string& family, const std::string& wanted) {
+  return wanted == family || wanted == plural(family);
+}
+
 }  // namespace
+
+bool is_listed(const std::string& wanted) {
+  return std::ranges::any_of(
+             families(),
+             [&](const RegistryBase* family) { return is_asked_for(family->family(), wanted); }) ||
+         std::ranges::any_of(std::array{"scenario", "set", "study"},
+                             [&](const char* family) { return is_asked_for(family, wanted); });
+}
 
 void list(const std::string& wanted) {
   std::vector<std::string> known;
   bool found = false;
   const auto asked_for = [&](const std::string& family) {
     known.push_back(family);
-    const bool asked = wanted.empty() || wanted == family || wanted == plural(family);
+    const bool asked = wanted.empty() || is_asked_for(family, wanted);
     found |= asked;
     return asked;
   };

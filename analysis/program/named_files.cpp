@@ -33,6 +33,15 @@ bool is_scenario(const Setting& root) {
          });
 }
 
+/// A file of statements, which a study names.
+void require_no_claims(const Setting& root, const fs::path& file) {
+  if (!root.find("claim") || root.find("scenario")) return;
+  throw InputError({file.string(), 0}, "this is a file of claims; name it in a study (claims = \"" +
+                                           file.filename().string() +
+                                           "\"), which shoal sweep runs and shoal claims "
+                                           "answers");
+}
+
 }  // namespace
 
 fs::path scenario_file(const std::string& name_or_path) {
@@ -41,7 +50,9 @@ fs::path scenario_file(const std::string& name_or_path) {
                      " runs its trials");
   }
   fs::path file = scenarios::find_scenario(name_or_path);
-  if (is_study(scenarios::read_toml(file))) {
+  const Setting root = scenarios::read_toml(file);
+  require_no_claims(root, file);
+  if (is_study(root)) {
     throw InputError({file.string(), 0}, "this is a study; shoal sweep runs its trials");
   }
   return file;
@@ -53,7 +64,9 @@ fs::path study_file(const std::string& name_or_path) {
                      " runs it");
   }
   fs::path file = analysis::find_study(name_or_path);
-  if (is_scenario(scenarios::read_toml(file))) {
+  const Setting root = scenarios::read_toml(file);
+  require_no_claims(root, file);
+  if (is_scenario(root)) {
     throw InputError({file.string(), 0}, "this is a scenario; shoal run runs it");
   }
   return file;

@@ -3,10 +3,11 @@ include(CMakePackageConfigHelpers)
 
 # Headers that programs and plugins build on; what only sources of shoal include stays inside.
 set(internal_headers
-    "/(smooth|program|python|report|figures|sensitivity|claim_tests|designs|measures|evaluations)/"
-    "/(study|statistics)/" "/tables/[^t]" "/netcdf_[a-z]*\\.hpp$" "/nps_auv/" "/whole_times\\.hpp$"
+    "/(program|python|reporting|benchmarking)/"
+    "/experiments/[a-z]+/" "/statistics/([a-ce-z]|d[a-df-z]|designs)" "/tables/[^t]"
+    "/smooth/(attempt|minimum)\\.hpp$" "/descent\\.hpp$"
     "/matching/(assignment|lattice|paired|points|pose|rigid|rotation|slot)[a-z_]*\\.hpp$"
-    "/descent\\.hpp$" "/formula(s/[a-z]+)?\\.hpp$")
+    "/netcdf_[a-z]*\\.hpp$" "/(mission_time|whole_times)\\.hpp$" "/nps_auv/" "/formula(s/[a-z]+)?\\.hpp$")
 if(${PROJECT_SOURCE_DIR}/core/random.cpp IN_LIST SHOAL_EXCLUDED_SOURCES)
   list(APPEND internal_headers "/core/random\\.hpp$")
 endif()

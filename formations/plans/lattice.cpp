@@ -39,6 +39,14 @@ struct Lattice final : PlanSource {
     const std::int64_t more = std::int64_t{2} * layers;
     const std::int64_t padded_rows = rows + more;
     const std::int64_t padded_columns = columns + more;
+    constexpr std::int64_t most_slots = 100'000;
+    if (padded_rows * padded_columns > most_slots) {
+      throw InputError(origin, "a lattice of " + std::to_string(padded_rows) + " x " +
+                                   std::to_string(padded_columns) + " has " +
+                                   std::to_string(padded_rows * padded_columns) +
+                                   " slots, and may have " + std::to_string(most_slots) +
+                                   "; take fewer rows, columns or layers");
+    }
     std::vector<std::string> names;
     std::vector<Eigen::Vector2d> slots;
     for (std::int64_t column = 0; column < padded_columns; ++column) {

@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <initializer_list>
 
+#include "shoal/core/lower_case.hpp"
 #include "shoal/core/text.hpp"
 
 namespace shoal::scenarios {
@@ -43,9 +45,35 @@ Meaning meaning_of(std::string_view standard_name) {
   return {};
 }
 
-bool measures_another_thing(const NetcdfFile& file, const NetcdfVariable& variable) {
+/// Whether a description in words speaks of something else than the motion of the water.
+bool describes_another_thing(const std::string& description) {
+  const auto has = [words = lower_case(description)](const char* word) {
+    for (std::size_t at = words.find(word); at != std::string::npos;
+         at = words.find(word, at + 1)) {
+      const bool begins = at == 0 || !std::isalpha(static_cast<unsigned char>(words[at - 1]));
+      if (begins) return true;
+    }
+    return false;
+  };
+  for (const char* never : {"uncertainty", "error", "deviation", "variance"}) {
+    if (has(never)) return true;
+  }
+  const bool of_water = has("current") || has("sea water") || has("seawater") || has("ocean");
+  for (const char* other : {"wind", "ice", "stokes", "wave", "transport", "tid", "stress"}) {
+    if (has(other) && !of_water) return true;
+  }
+  return false;
+}
+
+/// What a variable is that is no velocity of the water: `by its standard name, eastward_wind`; ""
+/// if nothing speaks against it.
+std::string another_thing(const NetcdfFile& file, const NetcdfVariable& variable) {
   const std::string name = file.text(variable, "standard_name");
-  return !name.empty() && meaning_of(name).role == VelocityRole::none;
+  if (!name.empty()) {
+    return meaning_of(name).role == VelocityRole::none ? "by its standard name, " + name : "";
+  }
+  const std::string words = file.text(variable, "long_name");
+  return describes_another_thing(words) ? "by its long name, \"" + words + '"' : "";
 }
 
 std::string named(const std::vector<const NetcdfVariable*>& variables) {
@@ -115,16 +143,15 @@ VelocityPair find_velocities(const NetcdfFile& file, const std::string& u_name,
     if (!first || !second || first->dimensions.size() < 2) continue;
     // A name like u may be that of a wind, of ice, of a part of the current.
     const bool is_foreign =
-        measures_another_thing(file, *first) || measures_another_thing(file, *second);
+        !another_thing(file, *first).empty() || !another_thing(file, *second).empty();
     if (is_foreign) foreign.insert(foreign.end(), {first, second});
     if (is_foreign) continue;
     u.push_back(first);
     v.push_back(second);
   }
   if (u.empty() && !foreign.empty()) {
-    const NetcdfVariable* one = measures_another_thing(file, *foreign[0]) ? foreign[0] : foreign[1];
-    file.refuse("holds no current: " + one->name + " is, by its standard name, " +
-                file.text(*one, "standard_name") +
+    const NetcdfVariable* one = another_thing(file, *foreign[0]).empty() ? foreign[1] : foreign[0];
+    file.refuse("holds no current: " + one->name + " is, " + another_thing(file, *one) +
                 "; if it is meant all the same, name both components in "
                 "current.netcdf.u_variable and v_variable");
   }

@@ -89,6 +89,18 @@ class Inherits(StudyDesk):
         self.assert_complains(self.shoal("run", "own.toml", "--set", "inherits=txt"), 2,
                               ["--set inherits=txt", 'no set or scenario "txt"', '"text"?'])
 
+    def test_no_scenario_is_left_out_by_exchanging_a_set(self):
+        self.write("mine.toml", 'inherits = ["redsea_square", "text"]\n' + desk.SMALL)
+        run = ["run", "mine.toml", "--no-report"]
+        self.assert_complains(self.shoal(*run, "--set", "inherits=program"), 2,
+                              ["inherits would leave out redsea_square",
+                               'inherits = ["redsea_square", "program"]'])
+        both = 'inherits=["redsea_square", "program"]'
+        self.assertEqual(self.shoal(*run, "--set", both).returncode, 0)
+        self.write("lost.toml", 'scenario = "mine.toml"\nset = { inherits = "program" }\n')
+        self.assert_complains(self.shoal("check", "lost.toml"), 2,
+                              ["inherits would leave out redsea_square"])
+
     def test_a_wrong_key_is_named_in_the_file_that_has_it(self):
         self.write("lab/mine.toml", "[ping]\nperoid_s = 11\n")
         self.write("run.toml", 'inherits = "lab/mine.toml"\n')

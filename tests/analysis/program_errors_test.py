@@ -198,6 +198,14 @@ BAD_ARGUMENTS = [
     (["swep", "delta_theta"], ['there is no command "swep"; did you mean "sweep"?']),
     (["run", "delta_theta"], ['"delta_theta" is a study; shoal sweep delta_theta runs its trials']),
     (["run", "a_study.toml"], ["a_study.toml: this is a study; shoal sweep runs its trials"]),
+    (["run", "said.toml"], ["said.toml: this is a file of claims; name it in a study"]),
+    (["check", "said.toml"], ["said.toml: this is a file of claims; name it in a study"]),
+    (["sweep", "said.toml"], ["said.toml: this is a file of claims; name it in a study"]),
+    (["run", "ok.toml", "--set", "quality.layers=100"],
+     ["quality.layers = 100 pads the plan to 40804 slots, and at most 10000 are searched"]),
+    (["run", "ok.toml", "--set", "quality.alignment=centroid", "--set", "quality.layers=49",
+      "--set", "quality.delta_theta_deg=0.01"],
+     ["quality.delta_theta_deg = 0.01 and 10000 slots are", "take larger steps or fewer layers"]),
     (["sweep", "redsea_square"],
      ['"redsea_square" is a scenario; shoal run redsea_square runs it']),
     (["sweep", "ok.toml"], ["ok.toml: this is a scenario; shoal run runs it"]),
@@ -315,6 +323,7 @@ class BadInput(Desk):
         self.write("bad.csv", "name,x_m,y_m\na,0,0\na,1,1\n")
         self.write("bad.nc", "no netCDF")
         self.write("a_study.toml", 'title = "mine"\nscenario = "ok.toml"\n')
+        self.write("said.toml", '[[claim]]\nsays = "so"\n')
         before = self.files()
         for arguments, parts in BAD_ARGUMENTS:
             with self.subTest(" ".join(arguments)):

@@ -108,6 +108,28 @@ class Help(Desk):
             self.assertIn("\n" + line, text)
         self.assertNotIn("energy_rate_w", self.say("list", "behaviour"))
 
+    def test_describe_finds_options_by_their_last_names(self):
+        for name, keys in (("replications", ["study.replications", "group.replications"]),
+                           ("resolve_percent", ["comparison.resolve_percent"]),
+                           ("seed", ["trial.seed", "study.seed"]), ("period_s", ["ping.period_s"]),
+                           ("statistic", ["table.statistic"]), ("BEARING_SD_DEG", ["ping.bearing_sd_deg"])):
+            text = self.say("describe", name)
+            for key in keys:
+                self.assertIn(f"{key}\n", text)
+
+    def test_describe_lists_a_family_that_no_scenario_chooses(self):
+        for family in ("design", "claim_test", "evaluation", "measure"):
+            listed = self.say("list", family)
+            for name in (family, family + ".kind", family + "s"):
+                self.assertEqual(self.say("describe", name), listed)
+        for name in ("scenario", "scenarios", "studies", "SETS"):
+            self.assertEqual(self.say("describe", name), self.say("list", name.lower()))
+
+    def test_describe_a_parameter_of_a_formula(self):
+        key = "behaviour.attraction_repulsion.potential.expression.parameters"
+        self.assertIn("takes a table of numbers; default none", self.say("describe", key))
+        self.assertIn("takes any finite number", self.say("describe", key + ".a"))
+
     def test_describe_what_a_measure_yields(self):
         self.assertEqual(self.say("describe", "energy_rate_w"),
                          "energy_rate_w (value of a trial, in W): "

@@ -125,6 +125,19 @@ TEST(Plan, CentredHasItsMeanAtTheOriginAndTheSameShape) {
 
 // Lattices and letters --------------------------------------------------------------------------
 
+TEST(SquarePlan, RefusesMoreSlotsThanThereAreToBe) {
+  const auto complaint = [](std::int64_t rows, int layers) {
+    const auto square =
+        source("square", table({{"rows", value(rows)}, {"columns", value(std::int64_t{400})}}));
+    return complaint_of([&] { square->padded(layers); });
+  };
+  EXPECT_EQ(complaint(250, 0), "");
+  EXPECT_NE(complaint(251, 0).find("a lattice of 251 x 400 has 100400 slots, and may have 100000; "
+                                   "take fewer rows, columns or layers"),
+            std::string::npos);
+  EXPECT_NE(complaint(1, 1000000000).find("may have 100000"), std::string::npos);
+}
+
 TEST(SquarePlan, NumbersColumnByColumnWithRowsRunningSouth) {
   const Plan plan = source("square", table({}))->plan();
   ASSERT_EQ(plan.size(), 20);

@@ -28,10 +28,7 @@ if [ -n "$foreign" ]; then
 fi
 
 cmake --install "$work/build" --prefix "$work/prefix" >"$work/install.log"
-(cd "$work/prefix/include/shoal" && grep -rhoE '#include [<"]shoal/[^">]+' . | sed 's/.*shoal\///' |
-  sort -u | while read -r header; do
-    [ -f "$header" ] || { echo "an installed header includes $header, which is not installed" >&2; exit 1; }
-  done)
+"$here/headers.sh" "$work/prefix"
 cmake -S "$here" -B "$work/engineer" -DCMAKE_CXX_COMPILER="$compiler" -DSHOAL_MEMBERS=ON \
   -DCMAKE_PREFIX_PATH="$work/prefix" >"$work/engineer.log"
 cmake --build "$work/engineer"

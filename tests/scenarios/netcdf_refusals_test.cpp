@@ -54,6 +54,25 @@ TEST(NetcdfCurrent, RefusesCommonNamesWithTheStandardNameOfAnotherThing) {
   }
 }
 
+TEST(NetcdfCurrent, RefusesCommonNamesThatAreDescribedAsAnotherThing) {
+  File file;
+  file.u_name = file.v_name = "";
+  for (const char* words :
+       {"Eastward wind at 10 m", "Stokes drift U", "ice drift u", "depth integrated transport u",
+        "uncertainty of u", "tidal u", "Error of the eastward ocean current"}) {
+    file.u_words = words;
+    const std::string why = refusal(file.write("described.nc"));
+    EXPECT_SAYS(why, "holds no current: u is, by its long name, \"" + std::string(words) + '"');
+    EXPECT_SAYS(why, "u_variable and v_variable");
+  }
+  for (const char* words :
+       {"Eastward current", "zonal velocity", "sea water velocity below the ice",
+        "wind-driven ocean current", "device u", "eastward velocity"}) {
+    file.u_words = words;
+    EXPECT_NO_THROW(open(file.write("described.nc"))) << words;
+  }
+}
+
 TEST(NetcdfCurrent, RefusesTimesThatAreNoDates) {
   for (const Values& times : {Values{0, 1, 1e15}, Values{-1e15, 0, 1}, Values{0, 1, 1e300}}) {
     File file;

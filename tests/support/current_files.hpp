@@ -44,6 +44,7 @@ struct File {
   std::string time_units = "seconds since 2014-12-01 00:00:00", calendar;
   std::string positive = "down", depth_units = "m";
   std::string u_name = "eastward_sea_water_velocity", v_name = "northward_sea_water_velocity";
+  std::string u_words;  ///< the long name of u; "" for none
   std::string units = "m s-1";
   nc_type type = NC_DOUBLE;
   double scale = 1.0, offset = 0.0;
@@ -129,6 +130,7 @@ inline fs::path File::write(const std::string& name, int format) const {
     w.variable(first ? "u" : "v", type, dimensions, first ? u : v);
     const std::string& meaning = first ? u_name : v_name;
     if (!meaning.empty()) w.text("standard_name", meaning);
+    if (first && !u_words.empty()) w.text("long_name", u_words);
     if (!units.empty()) w.text("units", units);
     if (scale != 1.0) w.number("scale_factor", NC_DOUBLE, {scale});
     if (offset != 0.0) w.number("add_offset", NC_DOUBLE, {offset});

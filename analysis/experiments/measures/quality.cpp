@@ -3,6 +3,7 @@
 #include "shoal/analysis/experiments/measure.hpp"
 #include "shoal/analysis/experiments/measures/formation_quality.hpp"
 #include "shoal/analysis/experiments/measures/quality_history.hpp"
+#include "shoal/core/text.hpp"
 
 namespace shoal::analysis {
 namespace {
@@ -21,8 +22,10 @@ class Quality final : public Measure {
     every_s_ = options.every_s;
     if (every_s_ <= 0.0) return;
     for (std::size_t i = 0; i < world.size(); ++i) start_.push_back(position(world, i));
-    measure_ = std::make_shared<FormationQuality>(
-        world.scenario().plan.make()->padded(static_cast<int>(options.layers)), options);
+    const formations::Plan padded =
+        world.scenario().plan.make()->padded(static_cast<int>(options.layers));
+    require_searchable(padded, world.size(), options);
+    measure_ = std::make_shared<FormationQuality>(padded, options);
   }
 
   std::vector<Quantity> values() const override {
@@ -58,6 +61,28 @@ class Quality final : public Measure {
   std::vector<Quantity> series() const override {
     return {{"quality", "m", "formation quality (Rypkema 2015, sec. 4.3)"},
             {"quality_gap_m", "m", "how far the quality may be above the least of all motions"}};
+  }
+
+  /// One look is to take seconds at most.
+  static void require_searchable(const formations::Plan& padded, std::size_t vehicles,
+                                 const scenarios::QualityOptions& options) {
+    constexpr int most_slots = 10'000;
+    if (padded.size() > most_slots) {
+      throw InputError("quality.layers = " + std::to_string(options.layers) + " pads the plan to " +
+                       std::to_string(padded.size()) + " slots, and at most " +
+                       std::to_string(most_slots) +
+                       " are searched; take fewer layers, or set "
+                       "quality.every_s = 0");
+    }
+    if (options.alignment == scenarios::QualityOptions::Alignment::rigid) return;
+    constexpr double most_distances = 1e9;
+    const double distances =
+        360.0 / options.delta_theta_deg * padded.size() * static_cast<double>(vehicles);
+    if (distances <= most_distances) return;
+    throw InputError("quality.delta_theta_deg = " + shortest(options.delta_theta_deg) + " and " +
+                     std::to_string(padded.size()) + " slots are " + shortest(distances) +
+                     " distances for each look at the quality, and may be " +
+                     shortest(most_distances) + "; take larger steps or fewer layers");
   }
 
   void observe(const scenarios::World& world) override {

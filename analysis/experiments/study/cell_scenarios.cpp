@@ -68,9 +68,13 @@ CellScenario CellScenarios::of(std::size_t group_index, std::size_t cell) {
   CellScenario made;
   try {
     Setting root = files_.at(base_scenario(name, origin));
-    overlay(root, list_.study().set);
-    overlay(root, group.set);
-    for (const Axis::Place& change : changes) overlay(root, change.set);
+    const auto change_to = [&root](const Setting& set) {
+      scenarios::require_no_scenario_left_out(root, set);
+      overlay(root, set);
+    };
+    change_to(list_.study().set);
+    change_to(group.set);
+    for (const Axis::Place& change : changes) change_to(change.set);
     root = scenarios::with_inherited(std::move(root), files_).settings;
     made.scenario = scenarios::read_scenario(root);
   } catch (const InputError& error) {

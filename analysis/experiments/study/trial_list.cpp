@@ -26,7 +26,7 @@ bool is_taken(const std::string& name) {
          has(known_series());
 }
 
-constexpr double most_trials = 1e7;
+constexpr double most_trials = 1e6;  // some seconds and 0.1 GB to list
 
 /// The name as stores and exported files tell it from others: SQLite knows no case, and netCDF few
 /// signs.
