@@ -5,6 +5,7 @@
 
 #include "shoal/analysis/experiments/claims/claim_text.hpp"
 #include "shoal/analysis/experiments/results/study_tables.hpp"
+#include "shoal/analysis/experiments/store/manifest.hpp"
 #include "shoal/analysis/experiments/study/study_files.hpp"
 #include "shoal/analysis/reporting/packed.hpp"
 #include "shoal/analysis/reporting/page.hpp"
@@ -164,8 +165,7 @@ void write_study_report(const fs::path& folder) {
             {"failures", failures(results)},
             {"figures", pictures(folder / "figures")},
             {"study", read_whole_file(folder / "study.toml").value()},
-            {"manifest",
-             Json::parse(read_whole_file(folder / "manifest.json").value_or(""), nullptr, false)}};
+            {"manifest", stored_manifest(folder)}};
   data["tables"] = Json::array();
   for (const Table& table : study_tables(results)) {
     data["tables"].push_back({{"name", table.name},

@@ -11,7 +11,7 @@ import subprocess
 import time
 
 import desk
-from study_desk import SHORT, STUDY, TRIALS, StudyDesk
+from study_desk import DAMAGED_MANIFESTS, SHORT, STUDY, TRIALS, StudyDesk
 
 
 class Merge(StudyDesk):
@@ -183,6 +183,18 @@ class Merge(StudyDesk):
         self.assert_refused(["mine", one], 2, ["is no store of trials"])
         self.assertEqual({f for f in self.files() if f.startswith("mine")},
                          {"mine/trials.sqlite"})
+
+    def test_a_damaged_manifest_is_refused_on_either_side(self):
+        one, two, _ = self.parts()
+        whole = (self.desk / two / "manifest.json").read_bytes()
+        for content, wrong in DAMAGED_MANIFESTS:
+            self.write(f"{two}/manifest.json", content)
+            said = [f"{two}/manifest.json: ", wrong, "; move it away"]
+            self.assert_refused([one, two], 2, said)
+            self.assert_refused([two, one], 2, said)
+            self.assertEqual((self.desk / two / "manifest.json").read_bytes(), content)
+        self.write(f"{two}/manifest.json", whole)
+        self.assertIn("6 of 9 trials are stored", self.merge(one, two))
 
     def test_a_folder_in_use_is_refused(self):
         one, two, _ = self.parts()

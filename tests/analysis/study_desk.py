@@ -34,6 +34,19 @@ every = 60
 SHORT = STUDY.replace("= 300", "= 90")  # where it matters only that trials were run
 TRIALS = 9  # rigid registration has no delta theta to vary
 
+# The content of a manifest.json, and what is said of it.
+DAMAGED_MANIFESTS = [
+    (b"", "the file is empty"),
+    (b"{", "no valid JSON"),
+    (b'{"sweeps": [{"began": "\xff"}]}', "no valid JSON"),
+    (b"[]", "lists no sweeps"),
+    (b"{}", "lists no sweeps"),
+    (b'{"sweeps": 5}', "sweeps is no list"),
+    (b'{"sweeps": [7]}', "sweeps holds an entry that is no object"),
+    (b'{"sweeps": [{"began": 7}]}', "sweeps holds an entry without the time"),
+    (b'{"sweeps": [], "merges": {}}', "merges is no list"),
+]
+
 
 class StudyDesk(Desk):
     """A desk with study.toml on it."""

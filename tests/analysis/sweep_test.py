@@ -14,7 +14,7 @@ import sys
 import time
 
 import desk
-from study_desk import STUDY, TRIALS, StudyDesk
+from study_desk import DAMAGED_MANIFESTS, SHORT, STUDY, TRIALS, StudyDesk
 
 KILLS = 4
 
@@ -194,6 +194,26 @@ values = [0, 1000000]
             refused = self.shoal("sweep", "long.toml", "--out", "out")
             running.kill()
         self.assert_complains(refused, 1, ["out is in use by another shoal"])
+
+    def test_a_damaged_manifest_is_refused_and_stays(self):
+        self.write("short.toml", SHORT)
+        few = ("--replications", 1)
+        self.sweep(*few, study="short.toml")
+        whole = (self.desk / "out/manifest.json").read_bytes()
+        for content, wrong in DAMAGED_MANIFESTS + [(whole[:len(whole) // 2], "no valid JSON")]:
+            with self.subTest(content[:20]):
+                self.write("out/manifest.json", content)
+                stored = self.rows("*")
+                refused = self.shoal("sweep", "short.toml", "--out", "out", "--replications", 2)
+                self.assert_complains(refused, 2, ["out/manifest.json: ", wrong, "; move it away"])
+                self.assertEqual((self.desk / "out/manifest.json").read_bytes(), content)
+                self.assertEqual(self.rows("*"), stored)
+        (self.desk / "out/manifest.json").unlink()
+        (self.desk / "out/manifest.json").mkdir()
+        self.assert_complains(self.shoal("sweep", "short.toml", "--out", "out", *few), 2,
+                              ["out/manifest.json: ", "cannot be read", "; move it away"])
+        (self.desk / "out/manifest.json").rmdir()
+        self.assertIn(" 0 of them run now", self.sweep(*few, study="short.toml"))
 
     def test_a_scenario_beside_the_study_is_found_from_everywhere(self):
         for text in [STUDY.replace('"construction_square"', '"sea.toml"').replace("300", "60"),

@@ -8,6 +8,7 @@
 #include <ctime>
 #include <fstream>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <thread>
 
 #include "shoal/analysis/experiments/build_info.hpp"
@@ -63,8 +64,31 @@ Json program() {
           {"plugins", plugins}};
 }
 
-Json read_manifest(const fs::path& folder) {
-  return Json::parse(read_whole_file(folder / "manifest.json").value_or(""), nullptr, false);
+constexpr const char* remedy =
+    "; move it away and run shoal sweep again: the trials are in trials.sqlite, and stay there";
+
+/// What is wrong with a list of sweeps or of merges.
+std::optional<std::string> complaint(const Json& manifest, const std::string& list) {
+  const auto entries = manifest.find(list);
+  if (entries == manifest.end()) return std::nullopt;
+  if (!entries->is_array()) return list + " is no list";
+  for (const Json& entry : *entries) {
+    if (!entry.is_object()) return list + " holds an entry that is no object";
+    const auto began = entry.find("began");
+    if (began == entry.end() || !began->is_string()) {
+      return list + " holds an entry without the time at which it began";
+    }
+  }
+  return std::nullopt;
+}
+
+Json parsed(const std::string& text, const fs::path& file) {
+  if (text.empty()) throw InputError({file.string()}, std::string("the file is empty") + remedy);
+  try {
+    return Json::parse(text);
+  } catch (const Json::exception&) {
+    throw InputError({file.string()}, std::string("the file is no valid JSON") + remedy);
+  }
 }
 
 /// Entries of both, once each, in the order in which they began.
@@ -79,6 +103,20 @@ void unite(Json& entries, const Json& others) {
 
 }  // namespace
 
+Json stored_manifest(const fs::path& folder) {
+  const fs::path file = folder / "manifest.json";
+  if (!fs::exists(file)) return nullptr;
+  const std::optional<std::string> text = read_whole_file(file);
+  if (!text) throw InputError({file.string()}, std::string("the file cannot be read") + remedy);
+  Json manifest = parsed(*text, file);
+  std::optional<std::string> wrong;
+  if (!manifest.is_object() || !manifest.contains("sweeps")) wrong = "it lists no sweeps";
+  if (!wrong) wrong = complaint(manifest, "sweeps");
+  if (!wrong) wrong = complaint(manifest, "merges");
+  if (wrong) throw InputError({file.string()}, *wrong + remedy);
+  return manifest;
+}
+
 struct Manifest::Content {
   Json sweeps = Json::array(), merges = Json::array();
   std::string began = now_utc();
@@ -87,9 +125,9 @@ struct Manifest::Content {
 
 Manifest::Manifest(const TrialList& list, const fs::path& folder)
     : list_(list), folder_(folder), content_(std::make_unique<Content>()) {
-  const Json before = read_manifest(folder);
-  if (!before.is_object()) return;
-  content_->sweeps = before.value("sweeps", Json::array());
+  const Json before = stored_manifest(folder);
+  if (before.is_null()) return;
+  content_->sweeps = before["sweeps"];
   content_->merges = before.value("merges", Json::array());
 }
 
@@ -115,8 +153,8 @@ void Manifest::end_sweep(const SweepProgress& progress) {
 }
 
 void Manifest::take_history(const fs::path& other) {
-  const Json theirs = read_manifest(other);
-  if (!theirs.is_object() || !theirs.contains("sweeps")) {
+  const Json theirs = stored_manifest(other);
+  if (theirs.is_null()) {
     throw InputError(other.string() +
                      " holds no manifest.json that says what ran its trials; name a folder that "
                      "shoal sweep wrote");

@@ -98,6 +98,7 @@ struct OpenSweep::State {
   State(const TrialList& study, const fs::path& folder, const SweepSettings& settings)
       : list(study),
         lock(writable(folder)),
+        manifest(list, folder),
         store(folder, Store::Access::write),
         missing(list, store, settings),
         series(needed_series(list.study())) {
@@ -111,8 +112,7 @@ struct OpenSweep::State {
       store.erase(missing.changed);
     }
     write_study(list, folder);
-    manifest.emplace(list, folder);
-    manifest->begin_sweep(settings);
+    manifest.begin_sweep(settings);
     progress.planned = missing.planned;
     progress.stored = missing.planned - missing.tasks.size();
     progress.failed = missing.failed;
@@ -120,10 +120,10 @@ struct OpenSweep::State {
 
   const TrialList& list;
   FolderLock lock;
+  Manifest manifest;
   Store store;
   TrialsToRun missing;
   std::vector<std::string> series;
-  std::optional<Manifest> manifest;  // reads study.toml
   SweepProgress progress;
 };
 
@@ -173,7 +173,7 @@ void OpenSweep::store(const SweepTask& task, TrialOutcome outcome) {
 
 void OpenSweep::end(double elapsed_s) {
   state_->progress.elapsed_s = elapsed_s;
-  state_->manifest->end_sweep(state_->progress);
+  state_->manifest.end_sweep(state_->progress);
 }
 
 }  // namespace shoal::analysis
