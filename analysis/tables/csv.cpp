@@ -97,19 +97,11 @@ std::vector<Fields> distinct_headers(const Table& table, const Layout& layout) {
   return headers;
 }
 
-/// A label that a spreadsheet would take for a formula, quoted as spreadsheets do.
-std::string without_formula(const std::string& label) {
-  const bool is_formula = label.find_first_of("=+-@\t\r") == 0 && !parsed_number(label);
-  return is_formula ? "'" + label : label;
-}
-
 void add_cell(const Cell& cell, const LaidColumn& laid, Fields& fields) {
   const auto* estimate = std::get_if<Estimate>(&cell);
   const auto* text = std::get_if<std::string>(&cell);
   const auto* missing = std::get_if<Missing>(&cell);
-  fields.push_back(text != nullptr       ? without_formula(*text)
-                   : estimate != nullptr ? shortest(estimate->value)
-                                         : "");
+  fields.push_back(text != nullptr ? *text : estimate != nullptr ? shortest(estimate->value) : "");
   std::vector<double> parts;
   if (estimate != nullptr) parts = values_of(estimate->uncertainty);
   for (std::size_t k = 0; k < parts_of(laid.kind).size(); ++k) {

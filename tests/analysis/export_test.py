@@ -113,6 +113,15 @@ class Export(StudyDesk):
         self.assertEqual(header[7:], list(run["measures"]))
         self.assertNotIn("out/trials.csv", self.files())
 
+    def test_a_label_is_no_formula_of_a_spreadsheet(self):
+        labels = ["=1+1", "-x", "@a", "-3.5"]
+        levels = "".join(f'[[factor.level]]\nlabel = "{label}"\n' for label in labels)
+        self.write("signs.toml", 'scenario = "construction_square"\nreplications = 1\n'
+                   'set = { trial.duration_s = 30 }\n[[factor]]\nname = "words"\n' + levels)
+        self.sweep(study="signs.toml")
+        self.export("out")
+        self.assertEqual([t["words"] for t in self.trials()], ["'=1+1", "'-x", "'@a", "-3.5"])
+
     def test_groups_missing_and_failed_trials_are_told_apart(self):
         self.sweep("--shard", "1/2", study="groups.toml")
         self.assertIn("22 trials, 1 failed, 11 missing", self.export("out"))
