@@ -6,6 +6,7 @@
 
 #include <cmath>
 
+#include "shoal/analysis/experiments/store/planned_trial.hpp"
 #include "shoal/analysis/experiments/study/study_files.hpp"
 #include "shoal/scenarios/toml_file.hpp"
 #include "tests/support/scratch_folder.hpp"
@@ -59,8 +60,7 @@ class Attribution : public testing::Test {
     for (const ListedTrial& planned : list.all_trials()) {
       const TrialGroup& group = list.groups()[planned.group];
       const auto labels = group.labels(planned.cell);
-      StoredTrial trial;
-      trial.key = group.key(planned.cell, planned.replication);
+      StoredTrial trial = planned_trial(list, planned);
       trial.program = "test";
       const double seed = planned.replication + 1.0;
       const bool b = labels.back() == "5";

@@ -12,6 +12,7 @@
 
 #include "shoal/analysis/experiments/claims/claim_verdicts.hpp"
 #include "shoal/analysis/experiments/results/study_tables.hpp"
+#include "shoal/analysis/experiments/store/planned_trial.hpp"
 #include "shoal/core/whole_file.hpp"
 #include "shoal/scenarios/toml_file.hpp"
 
@@ -80,8 +81,7 @@ class ChosenTrials : public testing::Test {
       for (const ListedTrial& planned : list.all_trials()) {
         const TrialGroup& group = list.groups()[planned.group];
         const auto labels = group.labels(planned.cell);
-        StoredTrial trial;
-        trial.key = group.key(planned.cell, planned.replication);
+        StoredTrial trial = planned_trial(list, planned);
         trial.program = "test";
         trial.measures = gave(
             {group.name(), group.columns(), {labels.begin(), labels.end()}, planned.replication});

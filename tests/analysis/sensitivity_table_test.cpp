@@ -7,6 +7,7 @@
 
 #include <filesystem>
 
+#include "shoal/analysis/experiments/store/planned_trial.hpp"
 #include "shoal/analysis/experiments/study/study_files.hpp"
 #include "shoal/core/text.hpp"
 #include "shoal/scenarios/toml_file.hpp"
@@ -53,8 +54,7 @@ class Sensitivity : public testing::Test {
     Store store(folder_, Store::Access::write);
     const TrialGroup& group = list.groups().front();
     for (const ListedTrial& planned : list.all_trials()) {
-      StoredTrial trial;
-      trial.key = group.key(planned.cell, planned.replication);
+      StoredTrial trial = planned_trial(list, planned);
       trial.program = "test";
       if (planned.cell == failing) {
         trial.failure = "it sank";

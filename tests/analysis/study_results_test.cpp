@@ -11,6 +11,7 @@
 #include "shoal/analysis/experiments/results/cell_table.hpp"
 #include "shoal/analysis/experiments/results/difference_table.hpp"
 #include "shoal/analysis/experiments/results/study_tables.hpp"
+#include "shoal/analysis/experiments/store/planned_trial.hpp"
 #include "shoal/scenarios/toml_file.hpp"
 #include "tests/core/settings.hpp"
 
@@ -50,8 +51,7 @@ class Stored : public testing::Test {
     Store store(folder_, Store::Access::write);
     const TrialGroup& group = list.groups().front();
     for (const ListedTrial& planned : list.all_trials()) {
-      StoredTrial trial;
-      trial.key = group.key(planned.cell, planned.replication);
+      StoredTrial trial = planned_trial(list, planned);
       trial.program = "test";
       const auto labels = group.labels(planned.cell);
       const auto found = energies.find({labels[0], labels[1]});
@@ -112,8 +112,7 @@ TEST_F(Stored, NotRunFailedUndefinedAndNeverReachedAreFourAnswers) {
       {}};
   for (std::size_t i = 0; i < trials.size(); ++i) {
     const ListedTrial& planned = list.trial(i);
-    StoredTrial trial;
-    trial.key = list.groups().front().key(planned.cell, planned.replication);
+    StoredTrial trial = planned_trial(list, planned);
     trial.program = "test";
     trial.measures = trials[i];
     if (trials[i].empty()) trial.failure = "it sank";
@@ -256,8 +255,7 @@ class StoredTimes : public Stored {
       if (labels[1] != "10") continue;  // not run
       const auto k = static_cast<std::size_t>(planned.replication);
       const double time_s = (labels[0] == rigid ? ours : theirs).at(k);
-      StoredTrial trial;
-      trial.key = group.key(planned.cell, planned.replication);
+      StoredTrial trial = planned_trial(list, planned);
       trial.program = "test";
       trial.measures = {
           {"time_to_quality_20m_s", time_s > 0.0 ? std::optional(time_s) : std::nullopt},

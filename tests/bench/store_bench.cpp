@@ -10,6 +10,7 @@
 #include "shoal/analysis/experiments/results/study_tables.hpp"
 #include "shoal/analysis/experiments/store/manifest.hpp"
 #include "shoal/analysis/experiments/store/merge.hpp"
+#include "shoal/analysis/experiments/store/planned_trial.hpp"
 #include "shoal/analysis/experiments/store/store.hpp"
 #include "shoal/analysis/experiments/study/study_files.hpp"
 #include "shoal/analysis/reporting/export.hpp"
@@ -50,22 +51,11 @@ TrialList list(const std::string& tables = a_table) {
 /// A trial with every measure that there is, and numbers that were not simulated.
 StoredTrial trial(const TrialList& list, std::size_t i) {
   const ListedTrial& planned = list.trial(i);
-  const TrialGroup& group = list.groups()[planned.group];
-  StoredTrial made{.key = group.key(planned.cell, planned.replication),
-                   .group = group.name(),
-                   .factors = {},
-                   .replication = planned.replication,
-                   .seed = list.seed(planned),
-                   .scenario = "0d3cba0f-0e03-5bbc-a66e-" + std::to_string(planned.cell),
-                   .id = "06f80130-aaf3-55d0-9bd5-" + std::to_string(i),
-                   .program = "bench",
-                   .failure = "",
-                   .wall_s = 1.0,
-                   .measures = {},
-                   .series = {}};
-  for (std::size_t c = 0; c < group.columns().size(); ++c) {
-    made.factors.emplace_back(group.columns()[c], group.labels(planned.cell)[c]);
-  }
+  StoredTrial made = planned_trial(list, planned);
+  made.scenario = "0d3cba0f-0e03-5bbc-a66e-" + std::to_string(planned.cell);
+  made.id = "06f80130-aaf3-55d0-9bd5-" + std::to_string(i);
+  made.program = "bench";
+  made.wall_s = 1.0;
   double number = static_cast<double>(i % 997) + 0.125 * static_cast<double>(planned.cell);
   for (const Quantity& quantity : known_values()) {
     made.measures.emplace_back(quantity.name, number);

@@ -4,6 +4,8 @@
 #include <stdexcept>
 #include <unordered_map>
 
+#include "shoal/analysis/experiments/store/planned_trial.hpp"
+
 namespace shoal::analysis {
 
 std::optional<double> value_at(const scenarios::Series& series, double time_s) {
@@ -56,6 +58,10 @@ StudyResults::StudyResults(const TrialList& list, const Store& store,
   const auto take = [&](const StoredTrial& stored) {
     const auto found = place.find(stored.key);
     if (found == place.end()) return;  // of an earlier form of the study
+    if (const auto wrong = contradiction(list, list.trial(found->second), stored)) {
+      throw InputError({store.file().string()}, "the trial " + stored.key + ": " + *wrong +
+                                                    "; run shoal sweep with --rerun-changed");
+    }
     if (program_.empty()) program_ = stored.program;
     if (stored.program != program_) {
       throw InputError("trials of this study were run by shoal " + program_ + " and by " +

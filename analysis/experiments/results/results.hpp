@@ -52,7 +52,7 @@ class StudyResults {
                const std::vector<std::string>& series);
 
   /// Reads these measures and these series. Throws InputError if trials of the study were run by
-  /// different programs.
+  /// different programs, or if a seed or a label is not the study's.
   StudyResults(const TrialList& list, const Store& store, const std::vector<std::string>& measures,
                const std::vector<std::string>& series);
 

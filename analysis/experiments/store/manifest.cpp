@@ -64,7 +64,7 @@ Json program() {
           {"plugins", plugins}};
 }
 
-constexpr const char* remedy =
+constexpr const char* move_away =
     "; move it away and run shoal sweep again: the trials are in trials.sqlite, and stay there";
 
 /// What is wrong with a list of sweeps or of merges.
@@ -83,11 +83,11 @@ std::optional<std::string> complaint(const Json& manifest, const std::string& li
 }
 
 Json parsed(const std::string& text, const fs::path& file) {
-  if (text.empty()) throw InputError({file.string()}, std::string("the file is empty") + remedy);
+  if (text.empty()) throw InputError({file.string()}, std::string("the file is empty") + move_away);
   try {
     return Json::parse(text);
   } catch (const Json::exception&) {
-    throw InputError({file.string()}, std::string("the file is no valid JSON") + remedy);
+    throw InputError({file.string()}, std::string("the file is no valid JSON") + move_away);
   }
 }
 
@@ -107,13 +107,13 @@ Json stored_manifest(const fs::path& folder) {
   const fs::path file = folder / "manifest.json";
   if (!fs::exists(file)) return nullptr;
   const std::optional<std::string> text = read_whole_file(file);
-  if (!text) throw InputError({file.string()}, std::string("the file cannot be read") + remedy);
+  if (!text) throw InputError({file.string()}, std::string("the file cannot be read") + move_away);
   Json manifest = parsed(*text, file);
   std::optional<std::string> wrong;
   if (!manifest.is_object() || !manifest.contains("sweeps")) wrong = "it lists no sweeps";
   if (!wrong) wrong = complaint(manifest, "sweeps");
   if (!wrong) wrong = complaint(manifest, "merges");
-  if (wrong) throw InputError({file.string()}, *wrong + remedy);
+  if (wrong) throw InputError({file.string()}, *wrong + move_away);
   return manifest;
 }
 

@@ -16,6 +16,7 @@ const char* advice(int code) {
       return "another program holds it; wait until that has ended";
     case SQLITE_CORRUPT:
     case SQLITE_NOTADB:
+    case SQLITE_ERROR:  // a table or a column that every store has is missing
       return "the file is damaged; move it away and run the study again";
     case SQLITE_NOMEM:
       return "there is not enough memory; close other programs";
@@ -27,11 +28,15 @@ const char* advice(int code) {
 [[noreturn]] void fail(sqlite3* connection) {
   const char* file = sqlite3_db_filename(connection, "main");
   throw SystemError("cannot use the store " + std::string(file ? file : "") + ": " +
-                    sqlite3_errmsg(connection) + "; " +
-                    advice(sqlite3_extended_errcode(connection)));
+                    last_error(connection));
 }
 
 }  // namespace
+
+std::string last_error(sqlite3* connection) {
+  return std::string(sqlite3_errmsg(connection)) + "; " +
+         advice(sqlite3_extended_errcode(connection));
+}
 
 Statement::Statement(sqlite3* connection, const std::string& sql) : connection_(connection) {
   if (sqlite3_prepare_v2(connection, sql.c_str(), -1, &statement_, nullptr) != SQLITE_OK) {
@@ -87,6 +92,23 @@ std::string Statement::text(int i) const {
 
 bool Statement::null(int i) const {
   return sqlite3_column_type(statement_, i) == SQLITE_NULL;
+}
+
+bool Statement::holds_text(int i) const {
+  return sqlite3_column_type(statement_, i) == SQLITE_TEXT;
+}
+
+bool Statement::holds_integer(int i) const {
+  return sqlite3_column_type(statement_, i) == SQLITE_INTEGER;
+}
+
+bool Statement::holds_number(int i) const {
+  return holds_integer(i) || sqlite3_column_type(statement_, i) == SQLITE_FLOAT;
+}
+
+bool Statement::holds_numbers(int i) const {
+  return sqlite3_column_type(statement_, i) == SQLITE_BLOB &&
+         static_cast<std::size_t>(sqlite3_column_bytes(statement_, i)) % sizeof(double) == 0;
 }
 
 std::int64_t Statement::integer(int i) const {

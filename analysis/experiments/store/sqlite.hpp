@@ -12,6 +12,9 @@ struct sqlite3_stmt;
 
 namespace shoal::analysis {
 
+/// What went wrong last, and what to do about it.
+std::string last_error(sqlite3* connection);
+
 /// A prepared statement of SQLite. Parameters count from 1, columns from 0.
 class Statement {
  public:
@@ -34,6 +37,14 @@ class Statement {
 
   std::string text(int i) const;
   bool null(int i) const;
+
+  // SQLite keeps values of any type in any column, and turns them into what is asked for: "abc"
+  // into the number 0.
+  bool holds_text(int i) const;
+  bool holds_integer(int i) const;
+  bool holds_number(int i) const;   ///< an integer or a real
+  bool holds_numbers(int i) const;  ///< the bytes of a span of numbers
+
   std::int64_t integer(int i) const;
   std::optional<double> number(int i) const;
   std::vector<double> numbers(int i) const;

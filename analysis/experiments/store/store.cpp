@@ -7,6 +7,7 @@
 #include <cmath>
 #include <span>
 #include <stdexcept>
+#include <utility>
 
 #include "shoal/analysis/experiments/store/sqlite.hpp"
 #include "shoal/core/error.hpp"
@@ -56,20 +57,27 @@ struct Store::Database {
   }
 
   [[noreturn]] void fail(const std::string& doing) const {
-    throw SystemError("cannot " + doing + " " + file.string() + ": " + sqlite3_errmsg(connection) +
-                      "; check free space and permissions");
+    throw SystemError("cannot " + doing + " " + file.string() + ": " + last_error(connection));
+  }
+
+  [[noreturn]] void refuse(const std::string& why) const {
+    throw InputError({file.string()},
+                     why + "; the file is damaged, move it away and run the study again");
   }
 
   void run(const std::string& sql, const std::string& doing = "write") const {
     if (sqlite3_exec(connection, sql.c_str(), nullptr, nullptr, nullptr) != SQLITE_OK) fail(doing);
   }
 
+  void require_tables() const;
   void read_columns();
   void put(const StoredTrial& trial);
   void erase(const std::vector<std::string>& keys) const;
   /// The statement that reads `names`, with `condition`, and what a row of it says.
   std::string selecting(const std::vector<std::string>& names, const std::string& condition) const;
   StoredTrial read(const Statement& select, const std::vector<std::string>& names) const;
+  scenarios::Series read_series(const Statement& select, int place, const std::string& name,
+                                const std::string& key) const;
   void add_columns(const std::string& list, std::vector<std::string>& known,
                    const std::vector<std::string>& wanted, const std::string& type);
 };
@@ -88,6 +96,14 @@ std::string factor_column(const std::string& name) {
 }
 
 }  // namespace
+
+void Store::Database::require_tables() const {
+  for (const char* table : {"trial", "series", "factor", "metric"}) {
+    Statement find(connection, "SELECT 1 FROM sqlite_schema WHERE type = 'table' AND name = ?");
+    find.bind(1, std::string(table));
+    if (!find.step()) refuse("it has no table " + std::string(table));
+  }
+}
 
 void Store::Database::read_columns() {
   factors = column_list(connection, "factor");
@@ -119,11 +135,13 @@ Store::Store(const fs::path& folder, Access access) : database_(std::make_unique
   }
   const int flags =
       access == Access::read ? SQLITE_OPEN_READONLY : SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE;
-  if (sqlite3_open_v2(db.file.c_str(), &db.connection, flags, nullptr) != SQLITE_OK)
+  // An absolute path: SQLite may take one that begins with `file:` for an address.
+  if (sqlite3_open_v2(fs::absolute(db.file).c_str(), &db.connection, flags, nullptr) != SQLITE_OK)
     db.fail("open");
   sqlite3_busy_timeout(db.connection, 10000);
-  if (sqlite3_exec(db.connection, "SELECT count(*) FROM sqlite_schema", nullptr, nullptr,
-                   nullptr) == SQLITE_NOTADB) {
+  const int first =
+      sqlite3_exec(db.connection, "SELECT count(*) FROM sqlite_schema", nullptr, nullptr, nullptr);
+  if (first == SQLITE_NOTADB) {
     throw InputError(db.file.string() +
                      " is no store of trials; move it away, or choose another folder");
   }
@@ -144,6 +162,7 @@ Store::Store(const fs::path& folder, Access access) : database_(std::make_unique
     throw InputError(db.file.string() +
                      " is no store of this version of shoal; choose another folder");
   }
+  db.require_tables();
   db.read_columns();
 }
 
@@ -158,6 +177,10 @@ Store::~Store() {
 
 Store::Store(Store&&) noexcept = default;
 Store& Store::operator=(Store&&) noexcept = default;
+
+const fs::path& Store::file() const {
+  return database_->file;
+}
 
 void Store::Database::put(const StoredTrial& trial) {
   std::vector<std::string> factor_names, measure_names;
@@ -251,8 +274,8 @@ void Store::erase(const std::vector<std::string>& keys) {
 std::string Store::Database::selecting(const std::vector<std::string>& names,
                                        const std::string& condition) const {
   std::string columns =
-      "trial_id, scenario_id, study_group, replication, seed, program, status, reason, wall_s, "
-      "trial_key";
+      "trial_key, trial_id, scenario_id, study_group, replication, seed, program, status, reason, "
+      "wall_s";
   for (const std::string& name : factors) columns += ", " + factor_column(name);
   for (const std::string& name : names) {
     const bool known = std::ranges::find(measures, name) != measures.end();
@@ -264,21 +287,45 @@ std::string Store::Database::selecting(const std::vector<std::string>& names,
 StoredTrial Store::Database::read(const Statement& select,
                                   const std::vector<std::string>& names) const {
   StoredTrial trial;
-  trial.id = select.text(0);
-  trial.scenario = select.text(1);
-  trial.group = select.text(2);
-  trial.replication = static_cast<int>(select.integer(3));
-  trial.seed = select.integer(4);
-  trial.program = select.text(5);
-  if (select.text(6) == "failed") trial.failure = select.text(7);
-  trial.wall_s = select.number(8).value_or(0.0);
-  trial.key = select.text(9);
-  int place = 10;
+  trial.key = select.text(0);
+  int place = 1;
+  const auto require = [&](bool holds, const std::string& column, const char* what) {
+    if (!holds) refuse("the trial " + trial.key + ": " + column + " holds no " + what);
+  };
+  const auto text = [&](const char* column) {
+    require(select.holds_text(place), column, "text");
+    return select.text(place++);
+  };
+  const auto integer = [&](const char* column) {
+    require(select.holds_integer(place), column, "integer");
+    return select.integer(place++);
+  };
+  trial.id = text("trial_id");
+  trial.scenario = text("scenario_id");
+  trial.group = text("study_group");
+  const std::int64_t replication = integer("replication");
+  require(std::in_range<int>(replication) && replication >= 0, "replication", "replication");
+  trial.replication = static_cast<int>(replication);
+  trial.seed = integer("seed");
+  trial.program = text("program");
+  const std::string status = text("status");
+  require(status == "done" || status == "failed", "status", "\"done\" and no \"failed\"");
+  if (status == "failed") {
+    require(select.holds_text(place) && !select.text(place).empty(), "reason", "text");
+    trial.failure = select.text(place);
+  }
+  ++place;
+  require(select.holds_number(place), "wall_s", "number");
+  trial.wall_s = *select.number(place++);
   for (const std::string& name : factors) {
+    require(select.null(place) || select.holds_text(place), "f:" + name, "text");
     if (!select.null(place)) trial.factors.emplace_back(name, select.text(place));
     ++place;
   }
-  for (const std::string& name : names) trial.measures.emplace_back(name, select.number(place++));
+  for (const std::string& name : names) {
+    require(select.null(place) || select.holds_number(place), name, "number");
+    trial.measures.emplace_back(name, select.number(place++));
+  }
   return trial;
 }
 
@@ -308,12 +355,22 @@ std::optional<StoredTrial> Store::find(const std::string& key) const {
   return db.read(select, db.measures);
 }
 
-void Store::require_whole(const scenarios::Series& series, const std::string& key) const {
-  if (series.time_s.size() == series.values.size()) return;
-  throw InputError({database_->file.string(), 0},
-                   fmt::format("the series {} of the trial {} has {} instants and {} numbers; the "
-                               "file is damaged, delete it and run the study again",
-                               series.name, key, series.time_s.size(), series.values.size()));
+/// A series in the columns from `place` on: unit, meaning, time_s, numbers.
+scenarios::Series Store::Database::read_series(const Statement& select, int place,
+                                               const std::string& name,
+                                               const std::string& key) const {
+  const auto refuse_it = [&](const std::string& why) {
+    refuse("the series " + name + " of the trial " + key + " has " + why);
+  };
+  if (!select.holds_numbers(place + 2)) refuse_it("no numbers in time_s");
+  if (!select.holds_numbers(place + 3)) refuse_it("no numbers in numbers");
+  scenarios::Series series{name, select.text(place), select.text(place + 1),
+                           select.numbers(place + 2), select.numbers(place + 3)};
+  if (series.time_s.size() != series.values.size()) {
+    refuse_it(
+        fmt::format("{} instants and {} numbers", series.time_s.size(), series.values.size()));
+  }
+  return series;
 }
 
 std::vector<scenarios::Series> Store::series_of(const std::string& key) const {
@@ -322,11 +379,7 @@ std::vector<scenarios::Series> Store::series_of(const std::string& key) const {
                    "ORDER BY name");
   select.bind(1, key);
   std::vector<scenarios::Series> all;
-  while (select.step()) {
-    all.push_back(
-        {select.text(0), select.text(1), select.text(2), select.numbers(3), select.numbers(4)});
-    require_whole(all.back(), key);
-  }
+  while (select.step()) all.push_back(database_->read_series(select, 1, select.text(0), key));
   return all;
 }
 
@@ -337,9 +390,8 @@ std::vector<std::pair<std::string, scenarios::Series>> Store::series(
   select.bind(1, name);
   std::vector<std::pair<std::string, scenarios::Series>> all;
   while (select.step()) {
-    all.emplace_back(select.text(0), scenarios::Series{name, select.text(1), select.text(2),
-                                                       select.numbers(3), select.numbers(4)});
-    require_whole(all.back().second, all.back().first);
+    const std::string key = select.text(0);
+    all.emplace_back(key, database_->read_series(select, 1, name, key));
   }
   return all;
 }

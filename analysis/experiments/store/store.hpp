@@ -40,11 +40,13 @@ class Store {
   enum class Access { write, read };
 
   /// Opens `folder`/trials.sqlite, made if need be and if writing. Throws SystemError, or
-  /// InputError if there is none to read, or if it is no store.
+  /// InputError if there is none to read, or if it is no store, or lacks a table.
   Store(const std::filesystem::path& folder, Access access);
   ~Store();
   Store(Store&&) noexcept;
   Store& operator=(Store&&) noexcept;
+
+  const std::filesystem::path& file() const;
 
   /// In one transaction. A trial of the same key is replaced. Throws SystemError; then nothing of
   /// the trial is stored. A measure that is NaN is a mistake of the caller: SQLite keeps none.
@@ -58,7 +60,9 @@ class Store {
   void together(const std::function<void()>& work);
 
   /// Calls `visitor` with every trial, without its series; in no particular order. With `measures`,
-  /// these only (null where no trial of the store has it), else all.
+  /// these only (null where no trial of the store has it), else all. What reads trials or series
+  /// throws InputError that names the trial and the column if that holds what no store writes, such
+  /// as words for a number.
   void visit(const std::function<void(StoredTrial& trial)>& visitor,
              const std::optional<std::vector<std::string>>& measures = {}) const;
   std::vector<StoredTrial> trials(
@@ -81,8 +85,6 @@ class Store {
   std::vector<std::string> series_names() const;
 
  private:
-  void require_whole(const scenarios::Series& series, const std::string& key) const;
-
   struct Database;
   std::unique_ptr<Database> database_;
 };

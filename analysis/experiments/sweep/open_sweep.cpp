@@ -6,6 +6,7 @@
 #include "shoal/analysis/experiments/build_info.hpp"
 #include "shoal/analysis/experiments/store/folder_lock.hpp"
 #include "shoal/analysis/experiments/store/manifest.hpp"
+#include "shoal/analysis/experiments/store/planned_trial.hpp"
 #include "shoal/analysis/experiments/store/store.hpp"
 #include "shoal/analysis/experiments/study/cell_scenarios.hpp"
 #include "shoal/analysis/experiments/study/needed_series.hpp"
@@ -42,7 +43,8 @@ class TrialsToRun {
       const std::string key = list.groups()[trial.group].key(trial.cell, trial.replication);
       const std::string id = trial_identity(identity, list.seed(trial));
       const auto found = stored.find(key);
-      const bool is_changed = found != stored.end() && found->second.id != id;
+      const bool is_changed = found != stored.end() &&
+                              (found->second.id != id || contradiction(list, trial, found->second));
       if (is_changed) {
         if (changed.empty()) why_changed = reason(list, trial, found->second);
         changed.push_back(key);
@@ -83,6 +85,9 @@ class TrialsToRun {
       return "they were run by shoal " + stored.program + ", and this is " + program;
     }
     if (stored.seed != list.seed(trial)) return "the seeds of the study have changed";
+    if (const auto wrong = contradiction(list, trial, stored)) {
+      return "of the trial " + stored.key + " the stored " + *wrong;
+    }
     return "the scenario of \"" + list.title(trial) + "\" has changed, or a file it names";
   }
 };
@@ -147,22 +152,14 @@ const SweepProgress& OpenSweep::progress() const {
 void OpenSweep::store(const SweepTask& task, TrialOutcome outcome) {
   const TrialList& list = state_->list;
   const ListedTrial& planned = *task.trial;
-  const TrialGroup& group = list.groups()[planned.group];
-  StoredTrial trial{.key = group.key(planned.cell, planned.replication),
-                    .group = group.name(),
-                    .factors = {},
-                    .replication = planned.replication,
-                    .seed = list.seed(planned),
-                    .scenario = task.scenario,
-                    .id = task.id,
-                    .program = build_info().program,
-                    .failure = std::move(outcome.failure),
-                    .wall_s = outcome.wall_s,
-                    .measures = std::move(outcome.measures),
-                    .series = std::move(outcome.series)};
-  for (std::size_t i = 0; i < group.columns().size(); ++i) {
-    trial.factors.emplace_back(group.columns()[i], group.labels(planned.cell)[i]);
-  }
+  StoredTrial trial = planned_trial(list, planned);
+  trial.scenario = task.scenario;
+  trial.id = task.id;
+  trial.program = build_info().program;
+  trial.failure = std::move(outcome.failure);
+  trial.wall_s = outcome.wall_s;
+  trial.measures = std::move(outcome.measures);
+  trial.series = std::move(outcome.series);
   state_->store.write(trial);
   SweepProgress& progress = state_->progress;
   ++progress.done;

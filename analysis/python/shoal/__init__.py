@@ -12,7 +12,7 @@ are radians, of the compass where they are degrees in files.
 Bad input raises InputError with the sentence that the program prints.
 """
 
-from . import _shoal
+from . import _arguments, _shoal
 from ._shoal import (Command, InputError, OwnState, Ping, PingFilter, Plan, Planner, Problem, Solution, SystemError, Table,
                      formation_quality, match, posed, program, register, solve)
 from ._shoal import version as __version__
@@ -28,7 +28,7 @@ def load_plugin(file):
     Raises InputError if it is none, or was built for another shoal.
     """
     global program
-    _shoal.load_plugin(str(file))
+    _shoal.load_plugin(_arguments.path(file, "file"))
     program = _shoal.program
 
 

@@ -8,6 +8,7 @@ from numpy.typing import ArrayLike
 
 version: str
 program: str
+most_threads: int
 
 def load_plugin(file: str) -> None: ...
 

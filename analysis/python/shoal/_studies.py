@@ -8,17 +8,19 @@ import pathlib
 import tempfile
 from typing import TYPE_CHECKING, Any, Callable, Mapping
 
-from . import _shoal
-from ._trials import name_of, plain, whole
+from . import _arguments, _shoal
+from ._trials import name_of
 
 if TYPE_CHECKING:
     import pandas
     import xarray
 
 
-def folder_of(study: Any, out: str | os.PathLike[str] | None) -> str:
+def folder_of(study: dict[str, Any] | str, out: str | os.PathLike[str] | None) -> str:
     """Where the trials of a study go, as `shoal sweep` has it."""
-    return os.fspath(out) if out is not None else str(pathlib.Path("out") / name_of(study, "study"))
+    if out is not None:
+        return _arguments.path(out, "out")
+    return str(pathlib.Path("out") / name_of(study, "study"))
 
 
 def sweep(study: str | os.PathLike[str] | Mapping[str, Any],
@@ -28,20 +30,17 @@ def sweep(study: str | os.PathLike[str] | Mapping[str, Any],
     """Runs the trials of a study that a folder does not hold yet, writes its tables into the folder, and
     returns all trials: see trials().
 
-    study: a name of those that ship, a file, or a dict. jobs: trials at a time; default: all
-    processors. replications: instead of those of the study. progress: called a few times a second with
+    study: a name of those that ship, a file, or a dict. jobs: trials at a time, 1 to 1024; default: all
+    processors. replications: instead of those of the study, if above 0. progress: called a few times a second with
     a dict of counts. Interrupted, it goes on where it was when called again. Raises InputError and
     SystemError.
     """
-    folder = folder_of(study, out)
-    jobs = (os.cpu_count() or 1) if jobs is None else whole(jobs, "jobs")
-    replications = whole(replications, "replications")
-    if jobs < 1:
-        raise _shoal.InputError(f"jobs is {jobs}; it takes at least 1")
-    if replications < 0:
-        raise _shoal.InputError(f"replications is {replications}; it takes at least 1, or 0 for those of the study")
-    _shoal.sweep(plain(study), folder, jobs, replications, rerun_changed,
-                 retry_failed, progress)
+    root = _arguments.source(study, "study")
+    folder = folder_of(root, out)
+    jobs = _arguments.whole(os.cpu_count() or 1 if jobs is None else jobs, "jobs", 1, _shoal.most_threads)
+    _shoal.sweep(root, folder, jobs, _arguments.whole(replications, "replications", 0),
+                 _arguments.flag(rerun_changed, "rerun_changed"),
+                 _arguments.flag(retry_failed, "retry_failed"), _arguments.function(progress, "progress"))
     write_tables(folder)
     return trials(folder)
 
@@ -51,7 +50,7 @@ def trials(folder: str | os.PathLike[str]) -> pandas.DataFrame:
     failed), and every measure with its unit in its name."""
     import pandas
 
-    return pandas.read_csv(io.StringIO(_shoal.trials_csv(os.fspath(folder))),
+    return pandas.read_csv(io.StringIO(_shoal.trials_csv(_arguments.path(folder, "folder"))),
                            float_precision="round_trip")
 
 
@@ -62,19 +61,19 @@ def study_dataset(folder: str | os.PathLike[str], group: str | None = None) -> x
 
     with tempfile.TemporaryDirectory(prefix="shoal-") as temporary:
         file = os.path.join(temporary, "study.nc")
-        _shoal.export_netcdf(os.fspath(folder), file)
+        _shoal.export_netcdf(_arguments.path(folder, "folder"), file)
         with _shoal.NetcdfLock():
             return xarray.load_dataset(file, group=group, decode_times=False)
 
 
 def tables(folder: str | os.PathLike[str]) -> dict[str, _shoal.Table]:
     """The tables of a study, by name, from what is stored."""
-    return {table.name: table for table in _shoal.tables(os.fspath(folder))}
+    return {table.name: table for table in _shoal.tables(_arguments.path(folder, "folder"))}
 
 
 def write_tables(folder: str | os.PathLike[str]) -> None:
     """Writes them, and that of the claims, into its folder `tables`, as LaTeX, CSV and Markdown."""
-    _shoal.write_tables(os.fspath(folder))
+    _shoal.write_tables(_arguments.path(folder, "folder"))
 
 
 def claims(folder: str | os.PathLike[str]) -> pandas.DataFrame:
@@ -85,10 +84,10 @@ def claims(folder: str | os.PathLike[str]) -> pandas.DataFrame:
     columns = ["statement", "section", "claim", "column", "statement_verdict", "verdict", "contrast",
                "contrast_verdict", "claimed", "n", "trials", "never_reached", "estimate", "low", "high",
                "p_holds", "p_fails", "corrected_p"]
-    return pandas.DataFrame(_shoal.claims(os.fspath(folder)), columns=columns)
+    return pandas.DataFrame(_shoal.claims(_arguments.path(folder, "folder")), columns=columns)
 
 
 def study_report(folder: str | os.PathLike[str]) -> pathlib.Path:
     """Writes report.html into the folder of a study, and returns its path."""
-    _shoal.study_report(os.fspath(folder))
+    _shoal.study_report(_arguments.path(folder, "folder"))
     return pathlib.Path(folder) / "report.html"

@@ -26,9 +26,8 @@ import time
 import uuid
 from typing import TYPE_CHECKING, Any, Callable, Mapping
 
-from . import _shoal
+from . import _arguments, _shoal
 from ._studies import folder_of, study_report, trials, write_tables
-from ._trials import plain
 
 if TYPE_CHECKING:
     import pandas
@@ -51,11 +50,13 @@ def sweep(study: str | os.PathLike[str] | Mapping[str, Any], client: Client,
     are those of shoal.sweep(). Interrupted or cut off, it goes on where it was when called again.
     Raises InputError, and SystemError also if the scheduler is lost or workers keep dying.
     """
-    if batch < 1:
-        raise _shoal.InputError(f"batch is {batch}; give at least 1")
-    folder = folder_of(study, out)
-    open_sweep = _shoal.OpenSweep(plain(study), folder, replications, rerun_changed, retry_failed,
-                                  _Threads(client).now())
+    batch = _arguments.whole(batch, "batch", 1)
+    progress = _arguments.function(progress, "progress")
+    root = _arguments.source(study, "study")
+    folder = folder_of(root, out)
+    open_sweep = _shoal.OpenSweep(root, folder, _arguments.whole(replications, "replications", 0),
+                                  _arguments.flag(rerun_changed, "rerun_changed"),
+                                  _arguments.flag(retry_failed, "retry_failed"), _Threads(client).now())
     run(open_sweep, client, batch, progress)
     open_sweep.end()
     write_tables(folder)
