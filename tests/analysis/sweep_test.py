@@ -195,6 +195,18 @@ values = [0, 1000000]
             running.kill()
         self.assert_complains(refused, 1, ["out is in use by another shoal"])
 
+    def test_a_store_that_another_program_holds_is_refused(self):
+        self.write("short.toml", SHORT)
+        self.sweep("--replications", 1, study="short.toml")
+        store = sqlite3.connect(self.desk / "out/trials.sqlite")
+        store.execute("BEGIN EXCLUSIVE")
+        refused = [self.shoal("tables", "out"),
+                   self.shoal("sweep", "short.toml", "--out", "out", "--replications", 1,
+                              "--retry-failed")]
+        store.close()
+        for done in refused:
+            self.assert_complains(done, 1, ["trials.sqlite: ", "is locked; another program holds it"])
+
     def test_a_damaged_manifest_is_refused_and_stays(self):
         self.write("short.toml", SHORT)
         few = ("--replications", 1)

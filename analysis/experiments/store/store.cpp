@@ -31,6 +31,7 @@ constexpr const char* schema = R"(
   CREATE TABLE metric (column_name TEXT PRIMARY KEY, place INTEGER NOT NULL);
 )";
 constexpr int schema_version = 2;
+constexpr int patience_ms = 5000;  // with a program that holds the file
 
 std::string quoted_name(const std::string& name) {
   std::string text = "\"";
@@ -138,13 +139,14 @@ Store::Store(const fs::path& folder, Access access) : database_(std::make_unique
   // An absolute path: SQLite may take one that begins with `file:` for an address.
   if (sqlite3_open_v2(fs::absolute(db.file).c_str(), &db.connection, flags, nullptr) != SQLITE_OK)
     db.fail("open");
-  sqlite3_busy_timeout(db.connection, 10000);
+  sqlite3_busy_timeout(db.connection, patience_ms);
   const int first =
       sqlite3_exec(db.connection, "SELECT count(*) FROM sqlite_schema", nullptr, nullptr, nullptr);
   if (first == SQLITE_NOTADB) {
     throw InputError(db.file.string() +
                      " is no store of trials; move it away, or choose another folder");
   }
+  if (first != SQLITE_OK) db.fail("read");
   if (access == Access::write) {
     // Killed programs lose nothing that was committed, and a power cut leaves a store that is
     // whole.
