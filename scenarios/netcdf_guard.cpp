@@ -28,15 +28,24 @@ std::mutex& netcdf_mutex() {
 constexpr rlim_t megabyte = 1U << 20;
 constexpr int out_of_memory = 2;
 
+/// What a reading may take. 10 MB a second is slow even for compressed files; what is not stored,
+/// as missing values need not be, takes its time too.
+rlim_t most_seconds(std::uintmax_t bytes) {
+  return 30 + bytes / (10 * megabyte);
+}
+
 /// What a child that did not end well says of the file.
-std::string fault_of(int status) {
-  if (WIFEXITED(status) && WEXITSTATUS(status) == out_of_memory) {
-    return "it claims to hold more than a file of its size can";
-  }
+std::string fault_of(int status, std::uintmax_t bytes) {
   if (WIFSIGNALED(status) && WTERMSIG(status) == SIGXCPU) {
-    return "the netCDF library does not come to an end reading it";
+    return "cannot be read within " + std::to_string(most_seconds(bytes)) +
+           " s: it holds too much, or the netCDF library does not come to an end; cut it to the "
+           "region and the times that are needed, or write it anew";
   }
-  return "the netCDF library crashes reading it";
+  const bool memory = WIFEXITED(status) && WEXITSTATUS(status) == out_of_memory;
+  return std::string("is damaged: ") +
+         (memory ? "it claims to hold more than a file of its size can"
+                 : "the netCDF library crashes reading it") +
+         "; get the file again, or write it anew";
 }
 
 void limit(__rlimit_resource resource, rlim_t most) {
@@ -60,10 +69,9 @@ void be_expendable(std::uintmax_t bytes) {
   const int nowhere = ::open("/dev/null", O_WRONLY | O_CLOEXEC);
   if (nowhere >= 0) ::dup2(nowhere, STDERR_FILENO);
   limit(RLIMIT_CORE, 0);
-  // 10 MB a second is slow even for compressed files. No compression of netCDF's makes more than a
-  // thousand bytes of one.
-  limit(RLIMIT_CPU, 5 + bytes / (10 * megabyte));
-  limit(RLIMIT_AS, address_space() + 512 * megabyte + 2000 * bytes);
+  limit(RLIMIT_CPU, most_seconds(bytes));
+  // No compression of netCDF's makes more than a thousand bytes of one.
+  limit(RLIMIT_AS, address_space() + 512 * megabyte + most_netcdf_bytes + 2000 * bytes);
 }
 
 double cpu_s(clockid_t clock) {
@@ -136,8 +144,7 @@ void rehearse_netcdf(const std::string& name, std::uintmax_t bytes,
     int status = 0;
     if (!ended_by_itself(child, status)) continue;
     if (WIFEXITED(status) && WEXITSTATUS(status) == 0) return;
-    throw InputError(name + ": is damaged: " + fault_of(status) +
-                     "; get the file again, or write it anew");
+    throw InputError(name + ": " + fault_of(status, bytes));
   }
 }
 

@@ -5,6 +5,7 @@
 #include <netcdf_mem.h>
 #include <unistd.h>
 
+#include <cmath>
 #include <fstream>
 
 #include "shoal/core/error.hpp"
@@ -24,9 +25,6 @@ constexpr TypeName numeric_types[] = {{NC_BYTE, "int8", true},      {NC_UBYTE, "
                                       {NC_INT, "int32", true},      {NC_UINT, "uint32", true},
                                       {NC_INT64, "int64", true},    {NC_UINT64, "uint64", true},
                                       {NC_FLOAT, "float32", false}, {NC_DOUBLE, "float64", false}};
-
-// 2 GB of doubles. What a file claims to hold may be more than what stands in it.
-constexpr std::size_t most_values = std::size_t{1} << 28;
 
 bool is_classic(const std::filesystem::path& path) {
   std::ifstream file(path, std::ios::binary);
@@ -70,6 +68,7 @@ void NetcdfFile::open(const std::filesystem::path& path) {
   if (is_classic(path)) {
     // Read from disk, the missing end of a truncated classic file would silently read as zeros;
     // read from memory it is an error.
+    require_room(static_cast<double>(std::filesystem::file_size(path)));
     std::ifstream file(path, std::ios::binary);
     content_.resize(std::filesystem::file_size(path));
     file.read(content_.data(), static_cast<std::streamsize>(content_.size()));
@@ -189,17 +188,34 @@ std::optional<double> NetcdfFile::default_fill(const NetcdfVariable& variable) c
 
 void NetcdfFile::read(const NetcdfVariable& variable, const std::vector<std::size_t>& start,
                       const std::vector<std::size_t>& count, std::vector<double>& values) const {
-  std::size_t size = 1;
-  for (const std::size_t n : count) {
-    if (n > 0 && size > most_values / n) {
-      refuse(variable.name + " has more than " + std::to_string(most_values) +
-             " numbers; that is more than shoal reads at once");
-    }
-    size *= n;
-  }
-  values.resize(size);
+  // What a file claims to hold may be more than what stands in it.
+  double size = 1.0;
+  for (const std::size_t n : count) size *= static_cast<double>(n);
+  require_room(size * sizeof(double));
+  values.resize(static_cast<std::size_t>(size));
   require(nc_get_vara_double(id_, variable.id, start.data(), count.data(), values.data()),
           "read " + variable.name + "; the file is damaged or incomplete");
+}
+
+double NetcdfFile::bytes_beside(const NetcdfVariable& variable) const {
+  int storage = NC_CONTIGUOUS;
+  std::size_t lengths[NC_MAX_VAR_DIMS] = {};
+  double bytes = static_cast<double>(content_.size());
+  if (nc_inq_var_chunking(id_, variable.id, &storage, lengths) != NC_NOERR) return bytes;
+  if (storage != NC_CHUNKED) return bytes;
+  double chunk = 2.0 * sizeof(double);
+  for (std::size_t d = 0; d < variable.dimensions.size(); ++d) {
+    chunk *= static_cast<double>(lengths[d]);
+  }
+  return bytes + chunk;
+}
+
+void NetcdfFile::require_room(double bytes) const {
+  if (bytes <= static_cast<double>(most_netcdf_bytes)) return;
+  constexpr double megabyte = 1e6;
+  refuse("to read it takes " + shortest(std::ceil(bytes / megabyte)) + " MB of memory, and " +
+         shortest(most_netcdf_bytes / megabyte) +
+         " MB are the most; cut it to the region and the times that are needed");
 }
 
 void NetcdfFile::refuse(const std::string& why) const {

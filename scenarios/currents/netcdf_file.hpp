@@ -61,6 +61,12 @@ class NetcdfFile {
   void read(const NetcdfVariable& variable, const std::vector<std::size_t>& start,
             const std::vector<std::size_t>& count, std::vector<double>& values) const;
 
+  /// Of memory that the file takes besides what is read of it: a classic one stands in memory, of
+  /// others a chunk of a variable does, packed and unpacked.
+  double bytes_beside(const NetcdfVariable& variable) const;
+  /// Refuses to read what would take more than most_netcdf_bytes.
+  void require_room(double bytes) const;
+
   [[noreturn]] void refuse(const std::string& why) const;
 
  private:

@@ -322,6 +322,21 @@ std::vector<bool> land_mask(const NetcdfFile& file, const CurrentLayout& layout)
 
 }  // namespace
 
+double bytes_of_a_slab(const NetcdfFile& file, const CurrentLayout& layout) {
+  const std::vector<NetcdfDimension>& dimensions = layout.u.dimensions;
+  // Both velocities as numbers, the nodes of two levels, positions, and a copy of coordinates.
+  constexpr double per_point = 2 * 8 + 2 * 8 + 2 * 8 + 2 * 8;
+  constexpr double per_coordinate = 4 * 8;
+  double points = 1.0, coordinates = 0.0;
+  for (std::size_t d = 0; d < dimensions.size(); ++d) {
+    const auto length = static_cast<double>(dimensions[d].length);
+    if (d + 2 >= dimensions.size()) points *= length;
+    coordinates += length;
+  }
+  return per_point * points + per_coordinate * coordinates +
+         std::max(file.bytes_beside(layout.u), file.bytes_beside(layout.v));
+}
+
 CurrentLayout understand(const NetcdfFile& file, const std::string& u_name,
                          const std::string& v_name) {
   const VelocityPair pair = find_velocities(file, u_name, v_name);
@@ -331,6 +346,7 @@ CurrentLayout understand(const NetcdfFile& file, const std::string& u_name,
       file.refuse(dimensions_text(*variable) + " has no two horizontal dimensions");
     }
   }
+  file.require_room(bytes_of_a_slab(file, layout));
   refuse_without_axes(file, layout);
   layout.u_units = file.text(layout.u, "units");
   layout.v_units = file.text(layout.v, "units");

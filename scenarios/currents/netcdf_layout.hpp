@@ -47,6 +47,9 @@ struct CurrentLayout {
   std::vector<bool> land;
 };
 
+/// Bytes of memory that it takes to read one time and one level at a go.
+double bytes_of_a_slab(const NetcdfFile& file, const CurrentLayout& layout);
+
 /// Understands a CF file (CF-1.8) with currents on regular longitude/latitude or projected axes.
 ///
 /// `u_name` and `v_name` choose the variables; both empty means: find them by standard name, else

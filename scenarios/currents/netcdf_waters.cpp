@@ -99,8 +99,20 @@ std::vector<Node> read_nodes(const NetcdfFile& file, const CurrentLayout& layout
   return nodes;
 }
 
+/// Of the fields: at the depth asked for, and at all levels.
+double bytes_held(const CurrentLayout& layout, bool all_levels) {
+  const auto length = [](const CoordinateAxis& axis) {
+    return static_cast<double>(axis.values.size());
+  };
+  const double times = layout.time ? length(*layout.time) : 1.0;
+  const double fields = 1.0 + (all_levels ? length(*layout.depth) : 0.0);
+  return sizeof(Node) * fields * times * length(layout.x) * length(layout.y);
+}
+
 std::shared_ptr<const Waters> read(const NetcdfFile& file, const WatersRequest& request) {
   const CurrentLayout layout = understand(file, request.u_variable, request.v_variable);
+  const bool all_levels = request.all_levels && layout.depth && layout.depth->values.size() > 1;
+  file.require_room(bytes_of_a_slab(file, layout) + bytes_held(layout, all_levels));
   const MissionFrame frame = mission_frame(file, layout, request.origin);
   const auto field_of = [&](std::vector<Node> nodes) {
     return VelocityField(frame.x_m, frame.y_m,
@@ -118,7 +130,7 @@ std::shared_ptr<const Waters> read(const NetcdfFile& file, const WatersRequest& 
                 field_of(std::move(nodes)),
                 {},
                 {}};
-  if (request.all_levels && layout.depth && layout.depth->values.size() > 1) {
+  if (all_levels) {
     std::vector<std::size_t> order(layout.depth->values.size());
     std::iota(order.begin(), order.end(), std::size_t{0});
     std::ranges::sort(order, {}, [&](std::size_t k) { return layout.depth->values[k]; });

@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <fstream>
+#include <stdexcept>
 
 #include "shoal/scenarios/currents/netcdf_report.hpp"
 #include "tests/support/current_files.hpp"
@@ -29,6 +30,47 @@ TEST(NetcdfCurrent, ConvertsUnitsOfVelocity) {
   EXPECT_THROW(speed("m"), InputError);
   EXPECT_THROW(speed("furlong/fortnight"), InputError);
   EXPECT_THROW(speed(""), InputError);
+}
+
+/// A small file of points x points velocities at some times, none of them written.
+fs::path unwritten(const std::string& name, std::size_t points, std::size_t times) {
+  const fs::path path = scratch(name);
+  int id = 0, dimensions[3] = {}, axes[3] = {};
+  const auto require = [](int status) {
+    if (status != NC_NOERR) throw std::runtime_error(nc_strerror(status));
+  };
+  require(nc_create(path.c_str(), NC_CLOBBER | NC_NETCDF4, &id));
+  const std::size_t lengths[3] = {times, points, points};
+  const char* names[3] = {"time", "y", "x"};
+  const std::string units[3] = {"seconds since 2014-12-01", "m", "m"};
+  const std::string meanings[3] = {"time", "projection_y_coordinate", "projection_x_coordinate"};
+  for (int d = 0; d < 3; ++d) {
+    require(nc_def_dim(id, names[d], lengths[d], &dimensions[d]));
+    require(nc_def_var(id, names[d], NC_DOUBLE, 1, &dimensions[d], &axes[d]));
+    require(nc_put_att_text(id, axes[d], "units", units[d].size(), units[d].c_str()));
+    require(nc_put_att_text(id, axes[d], "standard_name", meanings[d].size(), meanings[d].c_str()));
+  }
+  for (const std::string component : {"u", "v"}) {
+    int variable = 0;
+    require(nc_def_var(id, component.c_str(), NC_FLOAT, 3, dimensions, &variable));
+    require(nc_put_att_text(id, variable, "units", 5, "m s-1"));
+  }
+  require(nc_enddef(id));
+  for (int d = 0; d < 3; ++d) {
+    Values values(lengths[d]);
+    for (std::size_t k = 0; k < values.size(); ++k) values[k] = 100.0 * static_cast<double>(k);
+    require(nc_put_var_double(id, axes[d], values.data()));
+  }
+  require(nc_close(id));
+  return path;
+}
+
+TEST(NetcdfCurrent, RefusesWhatTakesTooMuchMemoryBeforeItIsRead) {
+  EXPECT_SAYS(refusal(unwritten("slab.nc", 1 << 14, 2)), "MB of memory, and 1000 MB are the most");
+  const std::string why = refusal(unwritten("times.nc", 1 << 10, 200));
+  EXPECT_SAYS(why, "MB of memory, and 1000 MB are the most; cut it to the region and the times");
+  EXPECT_EQ(why.find("damaged"), std::string::npos) << why;
+  EXPECT_SAYS(refusal(unwritten("little.nc", 4, 2)), "every value is missing");
 }
 
 TEST(NetcdfCurrent, FindsVelocitiesByCommonNames) {
