@@ -209,22 +209,40 @@ class NetcdfCurrent final : public Current {
         shortest(waters_->depths_m.front()), shortest(waters_->depths_m.back()), or_clamp_place));
   }
 
+  /// Whether no node at all has a velocity, at no level.
+  bool dry(double time_s) const {
+    const double in_file = time_s + start_s_;
+    if (waters_->levels.empty()) return waters_->field.dry(in_file);
+    return std::ranges::all_of(waters_->levels,
+                               [&](const VelocityField& level) { return level.dry(in_file); });
+  }
+
+  /// `, t = 60 s (2014-12-01T00:01:00Z)`; "" for a current that lasts unchanged.
+  std::string when_text(double time_s) const {
+    if (waters_->field.steady()) return "";
+    return fmt::format(", t = {} s ({})", shortest(time_s),
+                       iso_text(waters_->first_time.plus(time_s + start_s_), waters_->calendar));
+  }
+
   [[noreturn]] void refuse_place(double time_s, double x_m, double y_m) const {
+    // The nearest wet node is taken if there is one.
+    const bool none_is_wet = outside_ != Outside::error && std::isfinite(x_m) && std::isfinite(y_m);
+    if (none_is_wet || dry(time_s)) {
+      throw InputError(fmt::format(
+          "{}: no current at {}{}: the velocities at that time and depth are all missing; begin or "
+          "end the mission where there are some, with current.netcdf.time_offset_s and "
+          "trial.duration_s, or complete the file",
+          name_, waters_->frame.position_text(x_m, y_m), when_text(time_s)));
+    }
     const Vector2d grid = waters_->frame.grid_from_mission * Vector2d(x_m, y_m);
     const std::string place = waters_->frame.position_text(x_m, y_m);
     GridAxis::Place ignored;
     if (waters_->field.x().locate(grid.x(), ignored) &&
         waters_->field.y().locate(grid.y(), ignored)) {
-      const std::string when =
-          waters_->field.steady()
-              ? ""
-              : fmt::format(
-                    ", t = {} s ({})", shortest(time_s),
-                    iso_text(waters_->first_time.plus(time_s + start_s_), waters_->calendar));
       throw InputError(
           fmt::format("{}: no current at {}{}: all nodes around are missing, it is on "
                       "land; move the start, or {}",
-                      name_, place, when, or_clamp_place));
+                      name_, place, when_text(time_s), or_clamp_place));
     }
     const std::string along_axes =
         waters_->frame.grid_from_mission.isIdentity()

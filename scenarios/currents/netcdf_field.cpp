@@ -77,6 +77,15 @@ std::size_t VelocityField::sample(double time_s, const Eigen::Matrix2d& grid_fro
   return x_m.size();
 }
 
+bool VelocityField::dry(double time_s) const {
+  const Bracket when = bracket(time_s);
+  const std::size_t nodes = x_.nodes().size() * y_.nodes().size();
+  for (std::size_t k = 0; k < nodes; ++k) {
+    if (!at_node(when, k).hasNaN()) return false;
+  }
+  return true;
+}
+
 std::optional<Vector2d> VelocityField::off_the_fast_path(const Bracket& when, bool clamp,
                                                          double x_m, double y_m) const {
   if (clamp && std::isfinite(x_m) && std::isfinite(y_m)) {

@@ -31,6 +31,9 @@ class VelocityField {
   bool steady() const { return !time_; }
   double last_time_s() const { return time_ ? time_->last() : 0.0; }
 
+  /// Whether no node has a velocity at a time, which is clamped to those of the data.
+  bool dry(double time_s) const;
+
   /// Velocities at positions of the mission's frame, which `grid_from_mission` takes to the grid's,
   /// at a time within the data (any, if steady). With `clamp`, positions outside take the nearest
   /// point of the grid, positions on land the nearest wet node.

@@ -180,6 +180,29 @@ TEST(NetcdfCurrent, NamesThePlaceAndTimeOfAPositionOnLand) {
   EXPECT_SAYS(why, "current.netcdf.outside = \"clamp_place\"");
 }
 
+TEST(NetcdfCurrent, SaysWhereATimeHasNoVelocityAtAll) {
+  File file;
+  file.velocity = [](double t, double, double, double) {
+    return t == 600 ? Vector2d(NAN, NAN) : Vector2d(1.0, 1.0);
+  };
+  const fs::path path = file.write("empty_time.nc");
+  const std::vector<Changes> all{{}, {{"outside", clamp}}, {{"outside", clamp_place}}};
+  for (const Changes& outside : all) {
+    const auto water = open(path, outside);
+    EXPECT_EQ(at(*water, 0, 50, 50).x(), 1.0);
+    for (const double t : {500.0, 600.0}) {
+      const std::string why = complaint([&] { at(*water, t, 50, 50); });
+      EXPECT_SAYS(why, "the velocities at that time and depth are all missing; begin or end");
+      EXPECT_SAYS(why, "t = " + std::string(t == 600 ? "600" : "500") + " s (2014-12-01T00:");
+      EXPECT_EQ(why.find("land"), std::string::npos) << why;
+      EXPECT_EQ(why.find("clamp"), std::string::npos) << why;
+    }
+  }
+  // A place outside the grid takes the nearest one, where nothing is known either.
+  const auto water = open(path, {{"outside", clamp}});
+  EXPECT_SAYS(complaint([&] { at(*water, 600, -500, 50); }), "are all missing");
+}
+
 TEST(NetcdfCurrent, ClampsLandToTheNearestWetNode) {
   const fs::path path = with_coast().write("coast.nc");
   for (const auto& held : {clamp, clamp_place}) {
