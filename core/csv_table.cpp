@@ -1,11 +1,10 @@
 #include "shoal/core/csv_table.hpp"
 
 #include <algorithm>
-#include <fstream>
-#include <iterator>
 #include <optional>
 
 #include "shoal/core/text.hpp"
+#include "shoal/core/text_file.hpp"
 
 namespace shoal {
 namespace {
@@ -15,11 +14,11 @@ std::string content_of(const FilePath& file) {
   if (std::filesystem::is_directory(file.path)) {
     throw InputError(file.origin, name + " is a directory; name a CSV file");
   }
-  std::ifstream in(file.path, std::ios::binary);
-  if (!in) throw InputError(file.origin, "cannot open " + name + "; is there such a CSV file?");
-  std::string content{std::istreambuf_iterator<char>(in), {}};
-  if (content.starts_with("\xEF\xBB\xBF")) content.erase(0, 3);
-  return content;
+  std::optional<std::string> content = read_text_file(file.path);
+  if (!content)
+    throw InputError(file.origin, "cannot open " + name + "; is there such a CSV file?");
+  if (content->starts_with("\xEF\xBB\xBF")) content->erase(0, 3);
+  return *content;
 }
 
 void require_utf8(std::string_view line, const Origin& origin) {

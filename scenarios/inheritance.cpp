@@ -59,6 +59,11 @@ class Resolver {
                                           " would inherit from itself on this way; take one " +
                                           inherits_key + " out of the circle");
       }
+      if (below.size() >= deepest_inheritance) {
+        throw InputError(each.origin, "more than " + std::to_string(deepest_inheritance) +
+                                          " files inherit one another in a row; let one of them "
+                                          "name a file that is nearer to the end");
+      }
       if (std::ranges::find(seen_, file) == seen_.end()) seen_.push_back(file);
       std::vector<fs::path> with_this = below;
       with_this.push_back(file);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <filesystem>
 #include <map>
 #include <string>
@@ -11,6 +12,9 @@ namespace shoal::scenarios {
 
 /// The key at the top of a scenario under which it names what it inherits.
 inline constexpr const char* inherits_key = "inherits";
+
+/// The longest row of files that inherit one another: each holds a copy of all behind it.
+inline constexpr std::size_t deepest_inheritance = 32;
 
 /// TOML files, each read once.
 class TomlFiles {
@@ -36,7 +40,7 @@ struct Inheritance {
 /// of the files, so that messages and relative files go by where something was written.
 ///
 /// Throws InputError, where it was named, if there is no such set, scenario or file, or if files
-/// inherit one another in a circle.
+/// inherit one another in a circle or in too long a row.
 Inheritance with_inherited(Setting root, TomlFiles& files);
 
 /// Whether what is inherited is named by its file and not as one that ships: it has a folder, or

@@ -3,15 +3,14 @@
 #include <toml++/toml.h>
 
 #include <algorithm>
-#include <fstream>
 #include <functional>
-#include <iterator>
 #include <optional>
 #include <string_view>
 #include <utility>
 
 #include "shoal/core/nesting.hpp"
 #include "shoal/core/text.hpp"
+#include "shoal/core/text_file.hpp"
 #include "shoal/scenarios/inheritance.hpp"
 
 namespace shoal::scenarios {
@@ -122,9 +121,9 @@ Setting read_toml(const std::filesystem::path& file) {
   if (std::filesystem::is_directory(file)) {
     throw InputError({name, 0}, "this is a directory; name a TOML file");
   }
-  std::ifstream in(file, std::ios::binary);
-  if (!in) throw InputError({name, 0}, "the file cannot be opened; is there such a file?");
-  return parse_toml({std::istreambuf_iterator<char>(in), {}}, name);
+  const std::optional<std::string> content = read_text_file(file);
+  if (!content) throw InputError({name, 0}, "the file cannot be opened; is there such a file?");
+  return parse_toml(*content, name);
 }
 
 Setting parse_toml(const std::string& content, const std::string& name) {

@@ -4,6 +4,7 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
+#include "shoal/core/text_file.hpp"
 #include "shoal/core/whole_file.hpp"
 
 namespace shoal::analysis {
@@ -201,7 +202,7 @@ Corpus read_corpus(const std::filesystem::path& file) {
   Corpus corpus;
   std::string text;
   Origin origin{file.string(), 0};
-  while (std::getline(stream, text)) {
+  while (read_line(stream, text, {origin.file, origin.line + 1})) {
     ++origin.line;
     try {
       const Json line = Json::parse(text);

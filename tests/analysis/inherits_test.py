@@ -108,6 +108,14 @@ class Inherits(StudyDesk):
             self.assert_complains(self.shoal(*command), 2,
                                   ["lab/mine.toml:2: ", 'no option "peroid_s"', '"period_s"?'])
 
+    def test_a_row_of_files_that_inherit_one_another_has_an_end(self):
+        for k in range(40):
+            self.write(f"{k}.toml", f'inherits = "./{k + 1}.toml"\n')
+        self.write("40.toml", desk.SMALL)
+        self.assertEqual(self.shoal("check", "9.toml").returncode, 0)
+        refused = self.shoal("check", "0.toml")
+        self.assert_complains(refused, 2, [".toml:1: ", "more than 32 files inherit one another"])
+
     def test_a_study_varies_what_is_inherited(self):
         self.write("study.toml", STUDY)
         self.sweep()

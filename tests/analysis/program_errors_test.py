@@ -387,6 +387,16 @@ class BadSurroundings(Desk):
         done = self.sh('ulimit -v 1000000; "$SHOAL" --version')
         self.assertEqual((done.returncode, done.stderr), (0, ""))
 
+    def test_a_file_without_an_end_is_refused(self):
+        os.symlink("/dev/zero", self.desk / "zero")
+        os.symlink("/dev/zero", self.desk / "zero.toml")
+        for command in [["run", "zero.toml"], ["sweep", "zero.toml"], ["eval", "clamp", "zero"],
+                        ["solve", "zero"]]:
+            with self.subTest(command):
+                self.assert_complains(self.shoal(*command), 2, ["zero", "64 MB", "most that is read"])
+        self.write("plan.toml", desk.FILE_PLAN.replace("plan.csv", "zero"))
+        self.assert_complains(self.shoal("run", "plan.toml"), 2, ["zero", "64 MB"])
+
     def test_names_that_no_folder_can_have(self):
         for out in ["x" * 300, "loop/out"]:
             if out.startswith("loop"):

@@ -17,6 +17,11 @@ namespace {
 namespace fs = std::filesystem;
 
 std::string content_of(const fs::path& file) {
+  std::error_code ignored;
+  if (!fs::is_regular_file(file, ignored)) {
+    throw InputError(file.string() +
+                     " is no regular file; the trials of a study read it again and again");
+  }
   std::ifstream in(file, std::ios::binary);
   std::string content{std::istreambuf_iterator<char>(in), {}};
   if (!in) throw SystemError("cannot read " + file.string() + "; check its permissions");
