@@ -68,7 +68,8 @@ void write_trial(const Trial& trial, const std::string& name, const fs::path& fo
   // What stands there of an earlier trial would contradict this one, if this one is cut short.
   for (const char* earlier : run_files) {
     std::error_code ignored;
-    fs::remove(folder / earlier, ignored);
+    // A device or a pipe keeps nothing, and is written to.
+    if (!fs::is_other(folder / earlier, ignored)) fs::remove(folder / earlier, ignored);
   }
   write_text(folder / "scenario.toml", to_toml(scenarios::resolved_scenario(trial.scenario)));
   if (trial.record) {

@@ -3,6 +3,7 @@
     python3 program_errors_test.py SHOAL        (the program)
 """
 
+import json
 import os
 import re
 import resource
@@ -417,6 +418,16 @@ class BadSurroundings(Desk):
         self.shoal("corpus", "--duration", "60", "--keep", "1", "link.jsonl")
         self.assertTrue((self.desk / "link.jsonl").is_symlink())
         self.assertEqual((self.desk / "target.jsonl").read_text(), (self.desk / "got").read_text())
+
+    def test_a_run_writes_to_the_pipes_and_devices_in_its_folder(self):
+        (self.desk / "out").mkdir()
+        os.mkfifo(self.desk / "out/summary.json")
+        os.symlink("/dev/null", self.desk / "out/run.nc")
+        done = self.sh('cat out/summary.json >got & "$SHOAL" run ok.toml --out out >said; wait')
+        self.assertEqual((done.returncode, done.stderr), (0, ""))
+        self.assertTrue((self.desk / "out/summary.json").is_fifo())
+        self.assertTrue((self.desk / "out/run.nc").is_char_device())
+        self.assertEqual(json.loads((self.desk / "got").read_text())["vehicles"], 4)
 
     def test_a_terminal_that_takes_nothing(self):
         with open("/dev/full", "w", encoding="utf-8") as full:
