@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 
 #include "shoal/core/error.hpp"
 #include "shoal/core/text.hpp"
@@ -30,14 +31,29 @@ void require_possible(const NetcdfFile& file, const NetcdfVariable& variable,
                       const std::vector<double>& values) {
   constexpr double farthest = 1e12;
   const bool is_reason = variable.name == "target_reason";
+  const bool is_flag = variable.name == "thrusting";
   const auto possible = [&](double x) {
     if (std::isnan(x)) return variable.name != "time";
     if (is_reason) return x >= 0.0 && x < formations::reason_count && x == std::floor(x);
+    if (is_flag) return x == 0.0 || x == 1.0;
     return std::abs(x) <= farthest;
   };
   const auto wrong = std::ranges::find_if_not(values, possible);
   if (wrong != values.end()) {
     file.refuse(variable.name + " is " + shortest(*wrong) + " somewhere, as in no run of shoal");
+  }
+}
+
+void require_rising_seconds(const NetcdfFile& file, const NetcdfVariable& time,
+                            const std::vector<double>& values) {
+  const std::string units = file.text(time, "units");
+  if (!units.starts_with("seconds since ")) {
+    file.refuse("time is in \"" + units + "\", and not in seconds, as in every run of shoal");
+  }
+  const auto stuck = std::ranges::adjacent_find(values, std::greater_equal{});
+  if (stuck != values.end()) {
+    file.refuse("time is " + shortest(stuck[0]) + " and then " + shortest(stuck[1]) +
+                ", as in no run of shoal");
   }
 }
 
@@ -56,6 +72,7 @@ void read_vehicles(const NetcdfFile& file, RecordedRun& run) {
   if (x->dimensions[0].length == 0) file.refuse("holds no vehicle");
   run.time_s = all_of(file, *time);
   require_possible(file, *time, run.time_s);
+  require_rising_seconds(file, *time, run.time_s);
   run.vehicles = x->dimensions[0].length;
   for (const NetcdfVariable& variable : file.variables()) {
     if (!variable.is_numeric || variable.dimensions != x->dimensions) continue;

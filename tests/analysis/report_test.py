@@ -164,6 +164,28 @@ class Report(Desk):
         (out / "run.nc").write_bytes(b"no netCDF")
         self.assert_complains(self.shoal("report", "out"), 2, ["out/run.nc"])
 
+    def test_a_record_as_of_no_run_is_refused(self):
+        self.run_trial("ok.toml")
+        file = self.desk / "out/run.nc"
+        whole = file.read_bytes()
+
+        def set_all(name, value):
+            return lambda record: record[name].__setitem__(slice(None), value)
+
+        for change, said in [
+                (set_all("time", 0.0), "time is 0 and then 0, as in no run of shoal"),
+                (set_all("thrusting", 17.0), "thrusting is 17 somewhere"),
+                (set_all("thrusting", 0.5), "thrusting is 0.5 somewhere"),
+                (lambda record: record["time"].setncattr("units", "hours since 2014-12-01"),
+                 'time is in "hours since 2014-12-01", and not in seconds')]:
+            with self.subTest(said):
+                file.write_bytes(whole)
+                with netCDF4.Dataset(file, "a") as record:
+                    change(record)
+                self.assert_complains(self.shoal("report", "out"), 2, ["out/run.nc: ", said])
+        file.write_bytes(whole)
+        self.assertEqual(self.shoal("report", "out").returncode, 0)
+
     def test_a_run_of_another_plan_is_refused(self):
         self.run_trial("ok.toml")
         self.run_trial("ok.toml", "--set", "plan.square.rows=3", out="other")
