@@ -20,6 +20,12 @@ using OriginOf = std::function<Origin(const toml::source_region&)>;
 
 Setting setting_of(const toml::node& node, const Origin& origin, const OriginOf& origin_of);
 
+/// Names of files end at a NUL, and so do messages.
+std::string without_nul(std::string_view text, const Origin& origin) {
+  if (text.find('\0') == std::string_view::npos) return std::string(text);
+  throw InputError(origin, "a text holds the character NUL (\\u0000); take it out");
+}
+
 Setting::Table table_of(const toml::table& table, const OriginOf& origin_of) {
   // toml++ sorts by name; the order of writing is in the positions of the keys.
   std::vector<std::pair<const toml::key*, const toml::node*>> entries;
@@ -29,8 +35,8 @@ Setting::Table table_of(const toml::table& table, const OriginOf& origin_of) {
   });
   Setting::Table settings;
   for (const auto& [key, node] : entries) {
-    settings.emplace_back(std::string(key->str()),
-                          setting_of(*node, origin_of(key->source()), origin_of));
+    const Origin origin = origin_of(key->source());
+    settings.emplace_back(without_nul(key->str(), origin), setting_of(*node, origin, origin_of));
   }
   return settings;
 }
@@ -47,7 +53,7 @@ Setting setting_of(const toml::node& node, const Origin& origin, const OriginOf&
     }
     setting.value = std::move(list);
   } else if (const auto* text = node.as_string()) {
-    setting.value = text->get();
+    setting.value = without_nul(text->get(), origin);
   } else if (const auto* integer = node.as_integer()) {
     setting.value = integer->get();
   } else if (const auto* number = node.as_floating_point()) {

@@ -160,6 +160,17 @@ TEST_F(TomlFile, RefusesDatesAndTimesWithTheirLine) {
   }
 }
 
+TEST_F(TomlFile, RefusesTextWithANul) {
+  for (const char* line :
+       {"name = \"a\\u0000b\"", "names = [\"a\", \"\\u0000\"]", "t = { \"a\\u0000\" = 1 }"}) {
+    const std::string complained = complaint("a = 1\n" + std::string(line) + "\n");
+    EXPECT_NE(complained.find("scenario.toml:2: a text holds the character NUL (\\u0000)"),
+              std::string::npos)
+        << complained;
+  }
+  EXPECT_NE(set_complaint({}, "name=\"a\\u0000b\"").find("NUL"), std::string::npos);
+}
+
 TEST_F(TomlFile, RefusesAMissingFileAndADirectoryByName) {
   const auto absent = folder_ / "absent.toml";
   EXPECT_NE(complaint_of(absent).find("absent.toml: "), std::string::npos);
