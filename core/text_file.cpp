@@ -30,18 +30,22 @@ std::optional<std::string> read_text_file(const std::filesystem::path& file) {
 }
 
 bool read_line(std::istream& in, std::string& line, const Origin& origin) {
+  std::array<char, 65536> block;
   line.clear();
-  bool found = false;
-  for (char c = 0; in.get(c);) {
-    found = true;
-    if (c == '\n') break;
-    line += c;
+  for (bool found = false;;) {
+    in.getline(block.data(), block.size());
+    const auto taken = static_cast<std::size_t>(in.gcount());
+    const bool ended = in.good();  // by a newline, which is counted
+    line.append(block.data(), ended ? taken - 1 : taken);
+    found = found || taken > 0;
     if (line.size() > most_text_bytes) {
       throw InputError(origin, "this line is longer than " + limit_text() +
                                    ", which is the most that is read as text; name another file");
     }
+    const bool goes_on = taken > 0 && in.fail() && !in.eof() && !in.bad();
+    if (!goes_on) return found;
+    in.clear();  // it fails where a line is longer than the block
   }
-  return found;
 }
 
 }  // namespace shoal

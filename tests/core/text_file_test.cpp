@@ -5,6 +5,8 @@
 #include <filesystem>
 #include <fstream>
 #include <sstream>
+#include <string>
+#include <vector>
 
 #include "tests/support/complaint_of.hpp"
 #include "tests/support/scratch_folder.hpp"
@@ -33,11 +35,12 @@ TEST(TextFile, HasALimitWhereTheFileHasNoEnd) {
 }
 
 TEST(TextFile, IsReadLineByLine) {
-  std::istringstream in("one\n\nthree");
+  const std::string wide(200'000, 'w'), block(65535, 'b');
+  std::istringstream in("one\n\n" + wide + "\n" + block + "\nlast");
   std::string line;
   std::vector<std::string> lines;
   while (read_line(in, line, {})) lines.push_back(line);
-  EXPECT_EQ(lines, (std::vector<std::string>{"one", "", "three"}));
+  EXPECT_EQ(lines, (std::vector<std::string>{"one", "", wide, block, "last"}));
 }
 
 }  // namespace
