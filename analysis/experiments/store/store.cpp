@@ -306,7 +306,8 @@ StoredTrial Store::Database::read(const Statement& select,
   trial.scenario = text("scenario_id");
   trial.group = text("study_group");
   const std::int64_t replication = integer("replication");
-  require(std::in_range<int>(replication) && replication >= 0, "replication", "replication");
+  require(std::in_range<int>(replication) && replication >= 0, "replication",
+          "integer of 0 or more");
   trial.replication = static_cast<int>(replication);
   trial.seed = integer("seed");
   trial.program = text("program");
