@@ -143,6 +143,15 @@ class Merge(StudyDesk):
             "delta_theta_deg = 45, replication 1 in part1"])
         self.assertFalse((self.desk / "new").exists())
 
+    def test_a_seed_that_is_not_the_studys_is_refused(self):
+        one, two, _ = self.parts()
+        self.change(two, "UPDATE trial SET seed = 7 WHERE replication = 1 AND "
+                    "\"f:delta_theta_deg\" = '-'")
+        self.assert_refused(["new", one, two], 2, [
+            "part2/trials.sqlite: the trial |behaviour=rigid_registration|delta_theta_deg=-|1: ",
+            "seed is 7, and 2 in the study", "--rerun-changed"])
+        self.assertFalse((self.desk / "new").exists())
+
     def test_a_scenario_that_changed_between_two_parts_is_refused(self):
         self.write("sea.toml", "[trial]\nduration_s = 90\n")
         self.write("study.toml", SHORT.replace('"construction_square"', '"sea.toml"')

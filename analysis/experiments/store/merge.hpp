@@ -27,9 +27,9 @@ struct Merged {
 ///
 /// A trial stored in several folders is taken once if they agree on it (how long it took aside).
 /// Throws InputError if the folders hold different studies, if one trial came out differently in
-/// two of them, or if its cell or program was another in one of them; SystemError if a folder is in
-/// use or cannot be written. Trials are stored in one transaction: after an error, or if the merge
-/// is killed, the folder holds those that it had.
+/// two of them, or if its seed, cell or program was another in one of them; SystemError if a folder
+/// is in use or cannot be written. Trials are stored in one transaction: after an error, or if the
+/// merge is killed, the folder holds those that it had.
 Merged merge(const std::filesystem::path& folder, const std::vector<std::filesystem::path>& others);
 
 }  // namespace shoal::analysis

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <map>
 
+#include "shoal/analysis/experiments/store/planned_trial.hpp"
 #include "shoal/core/error.hpp"
 #include "shoal/core/text.hpp"
 
@@ -90,9 +91,17 @@ std::optional<std::size_t> StoredUnion::place_of(const StoredTrial& trial) const
 }
 
 void StoredUnion::note(const StoredTrial& trial, const Seen& seen) {
+  require_as_planned(trial, seen);
   require_one_program(trial, seen);
   require_one_scenario(trial, seen);
   if (known_.emplace(trial.key, seen).second) failed_ += trial.failed() ? 1 : 0;
+}
+
+void StoredUnion::require_as_planned(const StoredTrial& trial, const Seen& seen) const {
+  const std::optional<std::string> wrong = contradiction(list_, list_.trial(seen.trial), trial);
+  if (!wrong) return;
+  throw InputError({(folders_[seen.folder].folder / "trials.sqlite").string()},
+                   "the trial " + trial.key + ": " + *wrong + remedy);
 }
 
 void StoredUnion::require_one_program(const StoredTrial& trial, const Seen& seen) {

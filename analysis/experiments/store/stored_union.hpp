@@ -34,6 +34,7 @@ class StoredUnion {
 
   /// Its place in the list; nothing for a trial of an earlier form of the study.
   std::optional<std::size_t> place_of(const StoredTrial& trial) const;
+  void require_as_planned(const StoredTrial& trial, const Seen& seen) const;
   void require_one_program(const StoredTrial& trial, const Seen& seen);
   void require_one_scenario(const StoredTrial& trial, const Seen& seen);
   void require_same(const StoredTrial& ours, const StoredTrial& theirs, const Seen& seen,
