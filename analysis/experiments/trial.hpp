@@ -23,6 +23,9 @@ struct Trial {
   double vehicle_seconds_per_wall_s() const;
 };
 
+/// Of a trial, and trials of a sweep at a time.
+inline constexpr int most_threads = 1024;
+
 struct TrialSettings {
   int threads = 1;
   bool record = true;  ///< at trial.record_every_s, if that is above 0

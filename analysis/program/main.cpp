@@ -14,6 +14,7 @@
 #include "shoal/analysis/experiments/evaluation.hpp"
 #include "shoal/analysis/experiments/plugins.hpp"
 #include "shoal/analysis/experiments/store/trial_outcome.hpp"
+#include "shoal/analysis/experiments/trial.hpp"
 #include "shoal/core/error.hpp"
 #include "shoal/core/message.hpp"
 #include "shoal/core/text.hpp"
@@ -126,7 +127,7 @@ int shoal_program(int argc, char** argv) {
   run_command
       ->add_option("--threads", run.threads,
                    "threads for large swarms; the numbers do not depend on it")
-      ->check(CLI::Range(1, 1024));
+      ->check(CLI::Range(1, shoal::analysis::most_threads));
   CLI::Option* recorded =
       run_command->add_option("--record-problems", run.problems,
                               "file for the problems that the behaviour poses, for shoal solve");
@@ -148,7 +149,7 @@ int shoal_program(int argc, char** argv) {
       ->required();
   CLI::Option* jobs = sweep_command->add_option(
       "--jobs", sweep.jobs, "trials at a time; the numbers do not depend on it");
-  jobs->check(CLI::Range(1, 1024))->capture_default_str();
+  jobs->check(CLI::Range(1, shoal::analysis::most_threads))->capture_default_str();
   sweep_command->add_option("--out", sweep.out, "folder of the trials; default: out/STUDY");
   sweep_command->add_option("--shard", sweep.shard,
                             "I/N: only the I-th of N parts; see shoal merge");

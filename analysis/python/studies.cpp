@@ -18,7 +18,7 @@ namespace {
 namespace fs = std::filesystem;
 
 /// A study by name, by path, or as a dict.
-analysis::TrialList read(py::object study, int replications) {
+analysis::TrialList read(py::object study, std::int64_t replications) {
   Setting root = py::isinstance<py::dict>(study)
                      ? to_setting(study)
                      : scenarios::read_toml(analysis::find_study(py::str(study)));
@@ -47,9 +47,9 @@ std::string program_beside() {
   return fs::exists(program) ? program.string() : "";
 }
 
-py::dict sweep(const py::object& study, const std::string& folder, int jobs, int replications,
-               bool rerun_changed, bool retry_failed, const py::object& progress) {
-  if (jobs < 1) throw InputError("jobs is " + std::to_string(jobs) + "; give at least 1");
+py::dict sweep(const py::object& study, const std::string& folder, int jobs,
+               std::int64_t replications, bool rerun_changed, bool retry_failed,
+               const py::object& progress) {
   const analysis::TrialList list = read(study, replications);
   analysis::SweepSettings settings{.jobs = jobs,
                                    .rerun_changed = rerun_changed,
@@ -72,8 +72,8 @@ py::dict sweep(const py::object& study, const std::string& folder, int jobs, int
 /// An open sweep whose trials run elsewhere.
 class Sweep {
  public:
-  Sweep(const py::object& study, const std::string& folder, int replications, bool rerun_changed,
-        bool retry_failed, int jobs)
+  Sweep(const py::object& study, const std::string& folder, std::int64_t replications,
+        bool rerun_changed, bool retry_failed, int jobs)
       : list_(read(study, replications)),
         open_(list_, folder,
               {.jobs = jobs,
@@ -191,7 +191,7 @@ void add_studies(py::module_& module) {
              py::arg("replications"), py::arg("rerun_changed"), py::arg("retry_failed"),
              py::arg("progress"));
   py::class_<Sweep>(module, "OpenSweep")
-      .def(py::init<const py::object&, const std::string&, int, bool, bool, int>(),
+      .def(py::init<const py::object&, const std::string&, std::int64_t, bool, bool, int>(),
            py::arg("study"), py::arg("folder"), py::arg("replications"), py::arg("rerun_changed"),
            py::arg("retry_failed"), py::arg("jobs"))
       .def("__len__", &Sweep::size)

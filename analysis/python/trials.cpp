@@ -31,7 +31,6 @@ scenarios::Scenario read(py::object scenario, const py::dict& changes) {
 std::string run(const py::object& scenario, const py::dict& changes, const std::string& name,
                 const std::string& folder, int threads, bool record, bool report,
                 py::object progress) {
-  if (threads < 1) throw InputError("threads is " + std::to_string(threads) + "; give at least 1");
   const scenarios::Scenario read_in = read(scenario, changes);
   const std::unique_ptr<scenarios::Observer> watching = watch(read_in, std::move(progress));
   const py::gil_scoped_release free;
@@ -86,6 +85,7 @@ void add_trials(py::module_& module) {
       .def(py::init<>())
       .def("__enter__", &NetcdfLock::enter)
       .def("__exit__", &NetcdfLock::exit);
+  module.attr("most_threads") = analysis::most_threads;
   module.def("run", &run, py::arg("scenario"), py::arg("set"), py::arg("name"), py::arg("folder"),
              py::arg("threads"), py::arg("record"), py::arg("report"), py::arg("progress"));
   module.def(

@@ -185,6 +185,28 @@ shoal.run("construction_square", {"trial.duration_s": 1e8, "trial.record_every_s
                 shoal.sweep(STUDY, self.desk / "out", **{option: wrong})
         self.assertFalse((self.desk / "out").exists())
 
+    def test_arguments_of_another_kind_are_refused_by_name(self):
+        refused = {
+            "threads": [(True, "takes an integer"), (numpy.True_, "takes an integer"), (0, "1 to 1024"),
+                        (1_000_000, "1 to 1024")],
+            "record": [(None, "True or False"), (1, "True or False")],
+            "report": [("no", "True or False"), (True, "report is True, and out is None")],
+            "out": [("", "out is empty"), (5, "out is 5; it takes a path")],
+            "progress": [(5, "takes a function, or None"), ("x", "takes a function, or None")],
+        }
+        for name, wrongs in refused.items():
+            for wrong, says in wrongs:
+                with self.subTest(name=name, wrong=wrong):
+                    with self.assertRaisesRegex(shoal.InputError, f"^{name} is .*{says}|^{says}"):
+                        shoal.run("construction_square", {"trial.duration_s": 10}, **{name: wrong})
+        for name, wrong, says in (("jobs", 1_000_000, "1 to 1024"), ("jobs", True, "takes an integer"),
+                                  ("progress", 5, "takes a function, or None"), ("out", "", "out is empty"),
+                                  ("retry_failed", None, "True or False")):
+            with self.subTest(name=name, wrong=wrong):
+                with self.assertRaisesRegex(shoal.InputError, f"^{name} is .*{says}|^{says}"):
+                    shoal.sweep(STUDY, **{"out": self.desk / "out", name: wrong})
+        self.assertFalse((self.desk / "out").exists())
+
 
 class Potentials(Desk):
     def test_one_law_in_four_forms_gives_one_trajectory(self):

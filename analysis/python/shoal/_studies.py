@@ -37,7 +37,8 @@ def sweep(study: str | os.PathLike[str] | Mapping[str, Any],
     """
     root = _arguments.source(study, "study")
     folder = folder_of(root, out)
-    jobs = _arguments.whole(os.cpu_count() or 1 if jobs is None else jobs, "jobs", 1, _shoal.most_threads)
+    processors = min(os.cpu_count() or 1, _shoal.most_threads)
+    jobs = _arguments.whole(processors if jobs is None else jobs, "jobs", 1, _shoal.most_threads)
     _shoal.sweep(root, folder, jobs, _arguments.whole(replications, "replications", 0),
                  _arguments.flag(rerun_changed, "rerun_changed"),
                  _arguments.flag(retry_failed, "retry_failed"), _arguments.function(progress, "progress"))
