@@ -12,6 +12,23 @@ std::string type_of(py::handle value) {
   return py::str(py::type::of(value).attr("__name__"));
 }
 
+std::string shown(py::handle value) {
+  return py::str(py::module_::import("reprlib").attr("repr")(value));
+}
+
+/// Without what no UTF-8 has: halves of surrogate pairs.
+std::string text_of(py::handle value) {
+  Py_ssize_t size = 0;
+  const char* bytes = PyUnicode_AsUTF8AndSize(value.ptr(), &size);
+  if (bytes) return {bytes, static_cast<std::size_t>(size)};
+  PyErr_Clear();
+  throw InputError("the text " + shown(value) + " is not valid Unicode");
+}
+
+bool is_masked(py::handle value) {
+  return py::isinstance(value, py::module_::import("numpy").attr("ma").attr("MaskedArray"));
+}
+
 Setting plain(auto value) {
   return Setting{std::move(value), {}};
 }
@@ -19,6 +36,7 @@ Setting plain(auto value) {
 /// What it is instead, if it is no real number.
 std::optional<std::string> no_real_kind(py::handle value) {
   if (value.is_none()) return "None";
+  if (is_masked(value)) return "a masked array";
   if (py::isinstance<py::str>(value)) return "text";
   // numpy's complex numbers would convert, with a warning only.
   const bool complex_scalar =
@@ -37,7 +55,7 @@ Setting table_of(const py::dict& entries, std::size_t depth) {
       throw InputError("a key is a " + type_of(key) + "; keys are texts, as \"trial.seed\"");
     }
     Setting branch;
-    assign(branch, key.cast<std::string>(), setting_within(entry, depth));
+    assign(branch, text_of(key), setting_within(entry, depth));
     overlay(table, std::move(branch));
   }
   return table;
@@ -61,10 +79,14 @@ Setting setting_within(py::handle value, std::size_t depth) {
   const std::size_t below = depth - 1;
   if (py::hasattr(value, "_setting_")) return setting_within(value.attr("_setting_")(), below);
   if (py::isinstance<py::bool_>(value)) return plain(value.cast<bool>());
-  if (py::isinstance<py::str>(value)) return plain(value.cast<std::string>());
+  if (py::isinstance<py::str>(value)) return plain(text_of(value));
   if (py::isinstance<py::dict>(value)) return table_of(value.cast<py::dict>(), below);
   if (py::hasattr(value, "__fspath__")) {
-    return plain(value.attr("__fspath__")().cast<std::string>());
+    const py::object path = value.attr("__fspath__")();
+    if (!py::isinstance<py::str>(path)) {
+      throw InputError("the path " + shown(path) + " is a " + type_of(path) + "; give it as text");
+    }
+    return plain(text_of(path));
   }
   if (py::hasattr(value, "__index__")) return plain(integer_of(value));
   if (py::isinstance<py::float_>(value) ||
@@ -106,6 +128,7 @@ py::object to_python(const Setting& setting) {
 }
 
 double real_number(py::handle answer, const std::string& what) {
+  if (PyFloat_Check(answer.ptr())) return PyFloat_AS_DOUBLE(answer.ptr());
   const auto refuse = [&](const std::string& given) {
     throw InputError(what + " returned " + given + "; it has to return one real number");
   };
@@ -114,8 +137,12 @@ double real_number(py::handle answer, const std::string& what) {
   }
   if (const auto given = no_real_kind(answer)) refuse(*given);
   const double number = PyFloat_AsDouble(answer.ptr());
-  if (PyErr_Occurred()) throw py::error_already_set();
-  return number;
+  if (!PyErr_Occurred()) return number;
+  if (PyLong_Check(answer.ptr()) && PyErr_ExceptionMatches(PyExc_OverflowError)) {
+    PyErr_Clear();
+    refuse("an integer too large for a real number");
+  }
+  throw py::error_already_set();
 }
 
 Array real_array(py::handle answer, const std::string& what) {
@@ -123,6 +150,7 @@ Array real_array(py::handle answer, const std::string& what) {
     throw InputError(what + " returned " + given + "; it has to return an array of real numbers");
   };
   if (answer.is_none()) refuse("None");
+  if (is_masked(answer)) refuse("a masked array");
   const py::array array = py::array::ensure(answer);
   if (!array) refuse("a " + type_of(answer));
   const char kind = array.dtype().kind();

@@ -208,6 +208,28 @@ shoal.run("construction_square", {"trial.duration_s": 1e8, "trial.record_every_s
         self.assertFalse((self.desk / "out").exists())
 
 
+    def test_text_that_is_no_unicode_is_refused(self):
+        for wrong in ("\udc80", {"title": "\udc80"}, {"\udc80": 1}):
+            with self.subTest(wrong=wrong), self.assertRaisesRegex(shoal.InputError, "valid Unicode"):
+                shoal.run(wrong)
+        with self.assertRaisesRegex(shoal.InputError, "^out is .*valid Unicode"):
+            shoal.run("construction_square", {"trial.duration_s": 10}, out="a\udc80")
+
+    def test_arguments_that_no_conversion_takes_are_refused_by_name(self):
+        for name, wrong in (("threads", "2"), ("threads", 2**63), ("record", "yes"), ("set", 5), ("seed", 2**70)):
+            with self.subTest(name=name), self.assertRaisesRegex(shoal.InputError, f"^{name} is "):
+                shoal.run("construction_square", **{"set": {"trial.duration_s": 10}, name: wrong})
+        with self.assertRaisesRegex(shoal.InputError, "^scenario is 5; it takes a name, a file, or a dict"):
+            shoal.run(5)
+        for name, wrong in (("rerun_changed", "x"), ("replications", 2**63), ("jobs", 1.5)):
+            with self.subTest(name=name), self.assertRaisesRegex(shoal.InputError, f"^{name} is "):
+                shoal.sweep(STUDY, self.desk / "out", **{name: wrong})
+        with self.assertRaisesRegex(shoal.InputError, "replications"):
+            self.write("study.toml", STUDY)
+            shoal.sweep(self.desk / "study.toml", self.desk / "out", replications=2**62)
+        self.assertFalse((self.desk / "out").exists())
+
+
 class Potentials(Desk):
     def test_one_law_in_four_forms_gives_one_trajectory(self):
         forms = [shoal.potential("thesis"), shoal.potential(thesis),
@@ -281,6 +303,13 @@ class Potentials(Desk):
                     with self.subTest(part=part, says=says, batch=batch):
                         with self.assertRaisesRegex(shoal.InputError, says):
                             shoal.run("construction_hexagonal", {**REPELLED, LAW: potential})
+
+    def test_an_array_of_another_shape_or_with_masked_numbers_is_refused(self):
+        for wrong, says in ((lambda r, s: numpy.zeros(3), r"shape \(3,\) for distances of shape"),
+                            (lambda r, s: numpy.ma.masked, "returned a masked array")):
+            for batch in (False, True):
+                with self.subTest(says=says, batch=batch), self.assertRaisesRegex(shoal.InputError, says):
+                    shoal.potential(wrong, batch=batch).derivatives(1.0, 300.0)
 
     def test_what_a_conversion_raises_comes_out_unchanged(self):
         class Odd:
@@ -503,7 +532,9 @@ class Problems(Desk):
                             (lambda x: x, r"returned an array of shape \(2,\)"),
                             (lambda x: "1", "returned text"), (lambda x: 1j, "a complex number"),
                             (lambda x: numpy.complex128(1), "a complex number"),
-                            (lambda x: {}, "returned a dict")):
+                            (lambda x: {}, "returned a dict"),
+                            (lambda x: 10**400, "an integer too large for a real number"),
+                            (lambda x: numpy.ma.masked, "returned a masked array")):
             with self.assertRaisesRegex(shoal.InputError, says):
                 shoal.solve(shoal.Problem(wrong, start))
         for right in (lambda x: int(x[0] > 9), lambda x: numpy.float32(3), lambda x: numpy.array(2.0)):

@@ -80,8 +80,8 @@ def _differentiated(law: Law, slope: Law | None, curvature: Law | None, name: st
         found = law(Taylor.unknown(r), s)
         if not isinstance(found, Taylor):  # does not depend on r
             found = Taylor(found)
-        zero = numpy.zeros_like(r, dtype=float)
-        return found.value + zero, found.slope + zero, found.curvature + zero
+        return tuple(_spread(part, numpy.shape(r), name)
+                     for part in (found.value, found.slope, found.curvature))
 
     try:
         exact(100.0, 100.0)
@@ -89,6 +89,14 @@ def _differentiated(law: Law, slope: Law | None, curvature: Law | None, name: st
         raise _shoal.InputError(f"{name} cannot be differentiated ({error}); write it with operators "
                                 "and numpy's functions, or give slope and curvature") from error
     return exact
+
+
+def _spread(part: Any, shape: tuple[int, ...], name: str):
+    """A number for each distance, also of what is the same for all."""
+    if numpy.shape(part) not in ((), shape):
+        raise _shoal.InputError(f"{name} returned an array of shape {numpy.shape(part)} for distances of shape "
+                                f"{shape}; it has to return a number for each")
+    return part + numpy.zeros(shape)
 
 
 def _code(function: Any, known: frozenset[int] = frozenset()) -> bytes:
