@@ -4,6 +4,7 @@
 #include <string_view>
 
 #include "shoal/core/nesting.hpp"
+#include "shoal/core/text.hpp"
 
 namespace shoal::python {
 namespace {
@@ -101,6 +102,40 @@ Setting setting_within(py::handle value, std::size_t depth) {
   throw InputError("a value is a " + type_of(value) + ", which no option takes");
 }
 
+/// The words around what a value is instead of a number, in a message.
+struct Refusal {
+  std::string before, after;
+
+  [[noreturn]] void of(const std::string& given) const { throw InputError(before + given + after); }
+};
+
+double number_of(py::handle value, const Refusal& refuse) {
+  if (py::hasattr(value, "ndim") && value.attr("ndim").cast<int>() > 0) {
+    refuse.of("an array of shape " + std::string(py::str(value.attr("shape"))));
+  }
+  if (const auto given = no_real_kind(value)) refuse.of(*given);
+  const double number = PyFloat_AsDouble(value.ptr());
+  if (!PyErr_Occurred()) return number;
+  if (PyLong_Check(value.ptr()) && PyErr_ExceptionMatches(PyExc_OverflowError)) {
+    PyErr_Clear();
+    refuse.of("an integer too large for a real number");
+  }
+  throw py::error_already_set();
+}
+
+Array array_of(py::handle value, const Refusal& refuse) {
+  if (value.is_none()) refuse.of("None");
+  if (is_masked(value)) refuse.of("a masked array");
+  const py::array array = py::array::ensure(value);
+  if (!array) refuse.of("a " + type_of(value));
+  const char kind = array.dtype().kind();
+  if (kind == 'c') refuse.of("an array of complex numbers");
+  if (std::string_view("biuf").find(kind) == std::string_view::npos) {
+    refuse.of("an array of " + std::string(py::str(array.dtype())));
+  }
+  return array.cast<Array>();
+}
+
 }  // namespace
 
 Setting to_setting(py::handle value) {
@@ -129,47 +164,59 @@ py::object to_python(const Setting& setting) {
 
 double real_number(py::handle answer, const std::string& what) {
   if (PyFloat_Check(answer.ptr())) return PyFloat_AS_DOUBLE(answer.ptr());
-  const auto refuse = [&](const std::string& given) {
-    throw InputError(what + " returned " + given + "; it has to return one real number");
-  };
-  if (py::hasattr(answer, "ndim") && answer.attr("ndim").cast<int>() > 0) {
-    refuse("an array of shape " + std::string(py::str(answer.attr("shape"))));
-  }
-  if (const auto given = no_real_kind(answer)) refuse(*given);
-  const double number = PyFloat_AsDouble(answer.ptr());
-  if (!PyErr_Occurred()) return number;
-  if (PyLong_Check(answer.ptr()) && PyErr_ExceptionMatches(PyExc_OverflowError)) {
-    PyErr_Clear();
-    refuse("an integer too large for a real number");
-  }
-  throw py::error_already_set();
+  return number_of(answer, {what + " returned ", "; it has to return one real number"});
 }
 
 Array real_array(py::handle answer, const std::string& what) {
-  const auto refuse = [&](const std::string& given) {
-    throw InputError(what + " returned " + given + "; it has to return an array of real numbers");
-  };
-  if (answer.is_none()) refuse("None");
-  if (is_masked(answer)) refuse("a masked array");
-  const py::array array = py::array::ensure(answer);
-  if (!array) refuse("a " + type_of(answer));
-  const char kind = array.dtype().kind();
-  if (kind == 'c') refuse("complex numbers");
-  if (std::string_view("biuf").find(kind) == std::string_view::npos) {
-    refuse("an array of " + std::string(py::str(array.dtype())));
-  }
-  return array.cast<Array>();
+  return array_of(answer, {what + " returned ", "; it has to return an array of real numbers"});
 }
 
-std::vector<Eigen::Vector2d> points(const Array& array, const char* what) {
+double number_argument(py::handle value, const std::string& name) {
+  return number_of(value, {name + " is ", "; it takes one real number"});
+}
+
+Array array_argument(py::handle value, const std::string& name) {
+  return array_of(value, {name + " is ", "; it takes an array of real numbers"});
+}
+
+Eigen::VectorXd vector_argument(py::handle value, const std::string& name) {
+  const Array array = array_argument(value, name);
+  if (array.ndim() != 1) {
+    throw InputError(name + " has " + std::to_string(array.ndim()) +
+                     " dimensions; it takes one row of numbers");
+  }
+  return Eigen::Map<const Eigen::VectorXd>(array.data(), array.size());
+}
+
+std::string text_argument(py::handle value, const std::string& name) {
+  if (!py::isinstance<py::str>(value)) {
+    throw InputError(name + " is " + shown(value) + "; it takes text");
+  }
+  return text_of(value);
+}
+
+Setting settings_argument(py::handle value, const std::string& name) {
+  if (!py::isinstance<py::dict>(value)) {
+    throw InputError(name + " is " + shown(value) + "; it takes a dict");
+  }
+  return to_setting(value);
+}
+
+std::vector<Eigen::Vector2d> points(py::handle value, const std::string& name) {
+  constexpr double farthest_m = 1e9;
+  const Array array = array_argument(value, name);
   if (array.ndim() != 2 || array.shape(1) != 2) {
-    throw InputError(std::string(what) + " must be an array with two columns, east and north");
+    throw InputError(name + " must be an array with two columns, east and north");
   }
   std::vector<Eigen::Vector2d> all;
   for (py::ssize_t i = 0; i < array.shape(0); ++i) {
-    all.emplace_back(array.at(i, 0), array.at(i, 1));
-    if (!all.back().allFinite()) {
-      throw InputError(std::string(what) + ": row " + std::to_string(i) + " is not finite");
+    const Eigen::Vector2d& place = all.emplace_back(array.at(i, 0), array.at(i, 1));
+    if (!place.allFinite()) {
+      throw InputError(name + ": row " + std::to_string(i) + " is not finite; give metres");
+    }
+    if (place.cwiseAbs().maxCoeff() > farthest_m) {
+      throw InputError(name + ": row " + std::to_string(i) + " is too large; give at most " +
+                       shortest(farthest_m) + " m");
     }
   }
   return all;

@@ -28,8 +28,17 @@ using Array = py::array_t<double, py::array::c_style | py::array::forcecast>;
 double real_number(py::handle answer, const std::string& what);
 Array real_array(py::handle answer, const std::string& what);
 
-/// Rows (x, y) in metres. Throws InputError unless the array has two columns and is finite.
-std::vector<Eigen::Vector2d> points(const Array& array, const char* what);
+// What a function was given as the argument `name`. They throw InputError, with the name, unless it
+// is that: nothing is dropped of complex and masked numbers.
+double number_argument(py::handle value, const std::string& name);
+Array array_argument(py::handle value, const std::string& name);
+Eigen::VectorXd vector_argument(py::handle value, const std::string& name);
+std::string text_argument(py::handle value, const std::string& name);
+Setting settings_argument(py::handle value, const std::string& name);  ///< of a dict
+
+/// Rows (x, y) in metres. Throws InputError unless it is an array with two columns of finite
+/// numbers of at most 1e9.
+std::vector<Eigen::Vector2d> points(py::handle value, const std::string& name);
 
 // What each file adds to the module.
 void add_trials(py::module_& module);

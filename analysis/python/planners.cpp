@@ -11,7 +11,7 @@ using formations::OwnState;
 using formations::Ping;
 using formations::Plan;
 
-Plan plan_of_slots(const Array& slots, const std::vector<std::string>& names) {
+Plan plan_of_slots(const py::object& slots, const std::vector<std::string>& names) {
   std::vector<std::string> all = names;
   const std::vector<Eigen::Vector2d> places = points(slots, "slots");
   if (all.empty()) {

@@ -202,7 +202,9 @@ class NamedPotential {
   }
 
   /// Arrays of the shape of r: value, slope (1/m), curvature (1/m2).
-  py::tuple derivatives(const Array& r, double s) const {
+  py::tuple derivatives(const py::object& distances, const py::object& separation) const {
+    const Array r = array_argument(distances, "r");
+    const double s = number_argument(separation, "s");
     std::unique_ptr<Potential> potential = make();
     if (const auto why = potential->complaint(s)) throw InputError(kind_ + ": " + *why);
     potential->prepare(s);

@@ -97,9 +97,15 @@ struct HeldProblem {
   std::shared_ptr<const void> owner;  // a behaviour whose parts the cost uses
 };
 
-HeldProblem python_problem(const py::object& cost, const Vector& start, const py::object& gradient,
-                           const py::object& hessian, const std::optional<Vector>& lower,
-                           const std::optional<Vector>& upper) {
+std::optional<Vector> vector_or_none(const py::object& value, const char* name) {
+  return value.is_none() ? std::nullopt : std::optional(vector_argument(value, name));
+}
+
+HeldProblem python_problem(const py::object& cost, const py::object& first,
+                           const py::object& gradient, const py::object& hessian,
+                           const py::object& low, const py::object& high) {
+  const Vector start = vector_argument(first, "start");
+  const auto lower = vector_or_none(low, "lower"), upper = vector_or_none(high, "upper");
   if (start.size() < 1) throw InputError("the start has no unknowns");
   if (lower.has_value() != upper.has_value()) {
     throw InputError("bounds come in pairs: give lower and upper, or neither");
@@ -117,12 +123,13 @@ HeldProblem python_problem(const py::object& cost, const Vector& start, const py
 }
 
 /// The smooth problems that a behaviour solves for a vehicle at the origin.
-std::vector<HeldProblem> posed(const std::string& kind, const py::dict& options,
-                               const Array& neighbours, const formations::Plan& plan, int own_slot,
-                               const std::vector<int>& slots,
+std::vector<HeldProblem> posed(const py::object& behaviour_kind, const py::object& options,
+                               const py::object& neighbours, const formations::Plan& plan,
+                               int own_slot, const std::vector<int>& slots,
                                const std::optional<Eigen::Vector2d>& waypoint) {
+  const std::string kind = text_argument(behaviour_kind, "behaviour");
   const std::shared_ptr<const formations::Behaviour> behaviour =
-      Registry<formations::Behaviour>::instance().make(kind, to_setting(options),
+      Registry<formations::Behaviour>::instance().make(kind, settings_argument(options, "options"),
                                                        "behaviour." + kind);
   if (behaviour->needs_waypoint() && !waypoint) {
     throw InputError("behaviour " + kind + " leads to a waypoint; give waypoint = (east, north)");
@@ -153,16 +160,20 @@ std::vector<HeldProblem> posed(const std::string& kind, const py::dict& options,
   return gathered.problems;
 }
 
-Solution solve(const HeldProblem& held, const std::string& kind, const py::dict& options) {
-  const auto solver =
-      Registry<solvers::Solver>::instance().make(kind, to_setting(options), "solver." + kind);
+Solution solve(const HeldProblem& held, const py::object& solver_kind, const py::object& options) {
+  const std::string kind = text_argument(solver_kind, "solver");
+  const auto solver = Registry<solvers::Solver>::instance().make(
+      kind, settings_argument(options, "options"), "solver." + kind);
   if (const auto why = solver->refuses(held.problem)) throw InputError(kind + " " + *why);
   return solver->solve(held.problem);
 }
 
-py::dict registered(const Array& from, const Array& to, const std::optional<Vector>& weights,
-                    const std::string& kind, const std::string& loss, const py::dict& options,
-                    const py::dict& loss_options) {
+py::dict registered(const py::object& from, const py::object& to, const py::object& given_weights,
+                    const py::object& solver_kind, const py::object& loss_kind,
+                    const py::object& options, const py::object& loss_options) {
+  const std::string kind = text_argument(solver_kind, "solver");
+  const std::string loss = text_argument(loss_kind, "loss");
+  const std::optional<Vector> weights = vector_or_none(given_weights, "weights");
   const std::vector<Eigen::Vector2d> sources = points(from, "from_points");
   const std::vector<Eigen::Vector2d> places = points(to, "to_points");
   if (sources.size() != places.size() ||
@@ -174,11 +185,11 @@ py::dict registered(const Array& from, const Array& to, const std::optional<Vect
     pairs.push_back(
         {sources[i], places[i], weights ? (*weights)[static_cast<Eigen::Index>(i)] : 1.0});
   }
-  const auto measure =
-      Registry<solvers::Loss>::instance().make(loss, to_setting(loss_options), "loss." + loss);
+  const auto measure = Registry<solvers::Loss>::instance().make(
+      loss, settings_argument(loss_options, "loss_options"), "loss." + loss);
   const solvers::RegistrationProblem problem{pairs, measure.get()};
   const auto solver = Registry<solvers::RegistrationSolver>::instance().make(
-      kind, to_setting(options), "registration." + kind);
+      kind, settings_argument(options, "options"), "registration." + kind);
   if (const auto why = solver->refuses(problem)) throw InputError(kind + " " + *why);
   const solvers::RegistrationSolution solution = solver->solve(problem);
   py::dict answer;
@@ -190,8 +201,10 @@ py::dict registered(const Array& from, const Array& to, const std::optional<Vect
   return answer;
 }
 
-py::dict matched(const Array& seen, const Array& slots, double ownship_weight,
-                 const std::string& kind, const py::dict& options) {
+py::dict matched(const py::object& seen, const py::object& slots, const py::object& own_weight,
+                 const py::object& solver_kind, const py::object& options) {
+  const std::string kind = text_argument(solver_kind, "solver");
+  const double ownship_weight = number_argument(own_weight, "ownship_weight");
   const std::vector<Eigen::Vector2d> places = points(seen, "points");
   const std::vector<Eigen::Vector2d> plan = points(slots, "slots");
   if (!(ownship_weight >= 0.0 && std::isfinite(ownship_weight))) {
@@ -203,8 +216,8 @@ py::dict matched(const Array& seen, const Array& slots, double ownship_weight,
                      std::to_string(plan.size()) +
                      " slots; there has to be a point, and a slot for each");
   }
-  const auto matcher =
-      Registry<solvers::Matcher>::instance().make(kind, to_setting(options), "matching." + kind);
+  const auto matcher = Registry<solvers::Matcher>::instance().make(
+      kind, settings_argument(options, "options"), "matching." + kind);
   const solvers::MatchingSolution solution =
       matcher->solve({.points = places, .slots = plan, .ownship_weight = ownship_weight});
   py::dict answer;
@@ -225,12 +238,13 @@ void add_problems(py::module_& module) {
       "differences.")
       .def(py::init(&python_problem), py::arg("cost"), py::arg("start"), py::kw_only(),
            py::arg("gradient") = py::none(), py::arg("hessian") = py::none(),
-           py::arg("lower") = std::nullopt, py::arg("upper") = std::nullopt)
+           py::arg("lower") = py::none(), py::arg("upper") = py::none())
       .def_property_readonly("start",
                              [](const HeldProblem& held) -> Vector { return held.problem.start; })
       .def(
           "evaluate",
-          [](const HeldProblem& held, const Vector& x) {
+          [](const HeldProblem& held, const py::object& place) {
+            const Vector x = vector_argument(place, "x");
             const int n = held.problem.dimension();
             if (x.size() != n) {
               throw InputError("x has " + std::to_string(x.size()) + " entries for " +
@@ -275,7 +289,7 @@ void add_problems(py::module_& module) {
       "the\n"
       "same frame, for behaviours that lead to one. Raises InputError.");
   module.def("register", &registered, py::arg("from_points"), py::arg("to_points"),
-             py::arg("weights") = std::nullopt, py::arg("solver") = "procrustes",
+             py::arg("weights") = py::none(), py::arg("solver") = "procrustes",
              py::arg("loss") = "least_squares", py::arg("options") = py::dict(),
              py::arg("loss_options") = py::dict(),
              "The rigid motion, never a reflection, that lays points best onto their partners.\n"

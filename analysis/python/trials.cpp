@@ -41,7 +41,7 @@ std::string run(const py::object& scenario, const py::dict& changes, const std::
   return analysis::summary_json(trial, name);
 }
 
-double quality(const Array& positions, const formations::Plan& plan, const py::kwargs& given) {
+double quality(const py::object& positions, const formations::Plan& plan, const py::kwargs& given) {
   scenarios::QualityOptions options;
   shoal::read(options, to_setting(given), "quality");
   const std::vector<Eigen::Vector2d> places = points(positions, "positions");
@@ -54,7 +54,10 @@ double quality(const Array& positions, const formations::Plan& plan, const py::k
 }
 
 /// The current of a scenario at places, one after the other: none where it knows none.
-py::tuple current(const py::object& scenario, double time_s, const Array& x, const Array& y) {
+py::tuple current(const py::object& scenario, const py::object& time, const py::object& east,
+                  const py::object& north) {
+  const double time_s = number_argument(time, "time_s");
+  const Array x = array_argument(east, "x"), y = array_argument(north, "y");
   const auto sea = read(scenario, {}).current.make();
   if (x.size() != y.size()) throw InputError("x and y must be equally many");
   const std::vector<py::ssize_t> shape(x.shape(), x.shape() + x.ndim());

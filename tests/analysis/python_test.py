@@ -566,6 +566,43 @@ class Problems(Desk):
         with self.assertRaisesRegex(shoal.InputError, "0 points"):
             shoal.match(numpy.ones((0, 2)), places)
 
+    def test_positions_are_real_finite_and_of_this_world(self):
+        good = numpy.array([[0, 0], [100, 0], [0, 50]], float)
+        plan = shoal.Plan(good)
+        takes_points = {"points": lambda p: shoal.match(p, good), "slots": lambda p: shoal.match(good, p),
+                        "from_points": lambda p: shoal.register(p, good),
+                        "to_points": lambda p: shoal.register(good, p),
+                        "positions": lambda p: shoal.formation_quality(p, plan)}
+        wrongs = ((good + 1j, "is an array of complex numbers; it takes an array of real numbers"),
+                  (good * math.nan, "row 0 is not finite"), (good + [[0, 0], [math.inf, 0], [0, 0]], "row 1 is not"),
+                  (good + 1e308, r"row 0 is too large; give at most 1e\+09 m"),
+                  (numpy.ma.masked_equal(good, 50), "is a masked array"), (None, "is None"),
+                  ("here", "is an array of <U4"))
+        for name, call in takes_points.items():
+            call(good.tolist())
+            for wrong, says in wrongs:
+                with self.subTest(name=name, says=says):
+                    with self.assertRaisesRegex(shoal.InputError, f"^{name}:? {says}"):
+                        call(wrong)
+
+    def test_arguments_of_another_kind_are_refused_by_name(self):
+        places = numpy.eye(2) * 100
+        problem = shoal.Problem(lambda x: x @ x, [1.0, 2.0])
+        for name, call in (("options", lambda: shoal.match(places, places, options=5)),
+                           ("ownship_weight", lambda: shoal.match(places, places, "much")),
+                           ("weights", lambda: shoal.register(places, places, [1j, 1])),
+                           ("loss", lambda: shoal.register(places, places, loss=None)),
+                           ("solver", lambda: shoal.solve(problem, 5)),
+                           ("start", lambda: shoal.Problem(lambda x: 0.0, [1j])),
+                           ("x", lambda: problem.evaluate(None)),
+                           ("behaviour", lambda: shoal.posed(5, {}, places, shoal.Plan(places))),
+                           ("time_s", lambda: shoal.current("construction_square", 1j, 0.0, 0.0)),
+                           ("family", lambda: shoal.options(5, "newton")),
+                           ("version", lambda: shoal.potential(thesis, version=1)),
+                           ("r", lambda: shoal.potential("thesis").derivatives(1j, 300.0))):
+            with self.subTest(name=name), self.assertRaisesRegex(shoal.InputError, f"^{name} is .*; it takes"):
+                call()
+
     def test_registration_and_matching(self):
         points = numpy.array([[0, 0], [100, 0], [0, 50], [30, 30]], float)
         turn = numpy.array([[0, -1], [1, 0]])

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from . import _shoal
+from . import _arguments, _shoal
 
 if TYPE_CHECKING:
     import pandas
@@ -32,7 +32,7 @@ def options(family: str, name: str) -> pandas.DataFrame:
     """The options of one member, with their keys, defaults, units, ranges and meanings."""
     import pandas
 
-    rows = _shoal.options(family, name)
+    rows = _shoal.options(_arguments.text(family, "family"), _arguments.text(name, "name"))
     return pandas.DataFrame(rows, columns=["key", "default", "unit", "range", "meaning"])
 
 

@@ -9,7 +9,7 @@ from typing import Any, Callable
 
 import numpy
 
-from . import _shoal
+from . import _arguments, _shoal
 from ._taylor import Taylor
 
 Law = Callable[[Any, float], Any]
@@ -63,7 +63,8 @@ def potential(law: str | Law, *, slope: Law | None = None, curvature: Law | None
     name = getattr(law, "__name__", type(law).__name__)
     answer = _differentiated(law, slope, curvature, name)
     parts = [law] + [part for part in (slope, curvature) if part is not None]
-    source = version or hashlib.sha256(b"|".join(map(_code, parts))).hexdigest()[:16]
+    source = (hashlib.sha256(b"|".join(map(_code, parts))).hexdigest()[:16] if version is None
+              else _arguments.text(version, "version"))
     _shoal.keep_function(name, source, answer)
     limits = {key: limit for key, limit in (("from_m", from_m), ("to_m", to_m)) if limit is not None}
     return Potential("python", {"name": name, "source": source, "batch": batch, **limits})
