@@ -65,6 +65,13 @@ class Trials(Desk):
         self.assertEqual({f.name for f in (self.desk / "here").iterdir()},
                          {"scenario.toml", "run.nc", "series.nc", "summary.json", "report.html"})
 
+    def test_a_folder_may_have_blanks_and_backslashes_in_its_name(self):
+        settings = {"trial.duration_s": 60}
+        plain = shoal.run("construction_square", settings)
+        run = shoal.run("construction_square", settings, out=self.desk / "a\\b c")
+        self.assertTrue(run.dataset.identical(plain.dataset))
+        self.assertTrue((self.desk / "a\\b c" / "run.nc").exists())
+
     def test_scenarios_may_be_names_files_and_dicts(self):
         whole = shoal.scenario("construction_square", {"trial.duration_s": 300})
         self.assertEqual(whole["trial"]["duration_s"], 300)
@@ -654,6 +661,8 @@ class Studies(Desk):
         dataset = shoal.study_dataset(self.desk / "out")
         self.assertEqual(dict(dataset.energy_mean_wh.sizes), {"period_s": 2, "replication": 2})
         self.assertTrue((shoal.study_report(self.desk / "out")).exists())
+        with self.assertRaisesRegex(shoal.InputError, "there is no group 'north'; known are none"):
+            shoal.study_dataset(self.desk / "out", "north")
 
     def test_a_sweep_can_be_interrupted_and_goes_on(self):
         self.write("study.toml", SHORT)

@@ -8,7 +8,7 @@ import pathlib
 import tempfile
 from typing import TYPE_CHECKING, Any, Callable, Mapping
 
-from . import _arguments, _shoal
+from . import _arguments, _netcdf, _shoal
 from ._trials import name_of
 
 if TYPE_CHECKING:
@@ -58,13 +58,10 @@ def trials(folder: str | os.PathLike[str]) -> pandas.DataFrame:
 def study_dataset(folder: str | os.PathLike[str], group: str | None = None) -> xarray.Dataset:
     """Measures and stored series of a study, with its factors as dimensions. group: of the study, where
     it has named ones."""
-    import xarray
-
     with tempfile.TemporaryDirectory(prefix="shoal-") as temporary:
         file = os.path.join(temporary, "study.nc")
         _shoal.export_netcdf(_arguments.path(folder, "folder"), file)
-        with _shoal.NetcdfLock():
-            return xarray.load_dataset(file, group=group, decode_times=False)
+        return _netcdf.load(file, group)
 
 
 def tables(folder: str | os.PathLike[str]) -> dict[str, _shoal.Table]:

@@ -8,7 +8,7 @@ import pathlib
 import tempfile
 from typing import TYPE_CHECKING, Any, Callable, Mapping, NamedTuple
 
-from . import _arguments, _shoal
+from . import _arguments, _netcdf, _shoal
 
 if TYPE_CHECKING:
     import xarray
@@ -74,10 +74,6 @@ def run(scenario: str | os.PathLike[str] | Mapping[str, Any],
 def _dataset(folder: pathlib.Path) -> xarray.Dataset | None:
     if not (folder / "run.nc").exists():
         return None
-    import xarray
-
-    with _shoal.NetcdfLock():
-        vehicles, series = (xarray.load_dataset(folder / name, decode_times=False)
-                            for name in ("run.nc", "series.nc"))
+    vehicles, series = (_netcdf.load(folder / name) for name in ("run.nc", "series.nc"))
     # Positions are coordinates in the file, as CF asks for; here they are numbers like others.
     return vehicles.reset_coords(["x", "y", "depth"]).merge(series)
