@@ -49,6 +49,9 @@ std::optional<std::pair<int, int>> same_name(std::span<const std::string> names)
 /// Points must be finite.
 std::optional<std::pair<int, int>> same_place(std::span<const Eigen::Vector2d> points);
 
+/// Lattice positions that padding adds to a plan on every side, at most.
+inline constexpr int most_layers = 100;
+
 /// A way to come by a plan: a lattice, letters, a file ...
 class PlanSource {
  public:

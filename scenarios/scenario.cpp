@@ -77,7 +77,7 @@ void QualityOptions::declare(Options<QualityOptions>& o) {
   using Q = QualityOptions;
   o.number("every_s", &Q::every_s, "s", at_least(0),
            "how often the quality is measured (0: never); a multiple of trial.tick_s");
-  o.integer("layers", &Q::layers, "", in(0, 100),
+  o.integer("layers", &Q::layers, "", in(0, formations::most_layers),
             "lattice positions added around the plan (Rypkema 2015, sec. 4.3)");
   o.word("alignment", &Q::alignment,
          {{"rigid", Alignment::rigid},

@@ -188,6 +188,27 @@ Eigen::VectorXd vector_argument(py::handle value, const std::string& name) {
   return Eigen::Map<const Eigen::VectorXd>(array.data(), array.size());
 }
 
+std::int64_t integer_argument(py::handle value, const std::string& name, std::int64_t least,
+                              std::int64_t most) {
+  const auto refuse = [&](const std::string& taken) {
+    throw InputError(name + " is " + shown(value) + "; it takes " + taken);
+  };
+  const bool truth = PyBool_Check(value.ptr()) != 0;
+  const auto integer =
+      py::reinterpret_steal<py::object>(truth ? nullptr : PyNumber_Index(value.ptr()));
+  if (!integer) {
+    if (PyErr_Occurred() && !PyErr_ExceptionMatches(PyExc_TypeError)) throw py::error_already_set();
+    PyErr_Clear();
+    refuse("an integer");
+  }
+  int beyond = 0;
+  const long long number = PyLong_AsLongLongAndOverflow(integer.ptr(), &beyond);
+  if (beyond != 0 || number < least || number > most) {
+    refuse("from " + std::to_string(least) + " to " + std::to_string(most));
+  }
+  return number;
+}
+
 std::string text_argument(py::handle value, const std::string& name) {
   if (!py::isinstance<py::str>(value)) {
     throw InputError(name + " is " + shown(value) + "; it takes text");

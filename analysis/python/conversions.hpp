@@ -33,6 +33,8 @@ Array real_array(py::handle answer, const std::string& what);
 double number_argument(py::handle value, const std::string& name);
 Array array_argument(py::handle value, const std::string& name);
 Eigen::VectorXd vector_argument(py::handle value, const std::string& name);
+std::int64_t integer_argument(py::handle value, const std::string& name, std::int64_t least,
+                              std::int64_t most);
 std::string text_argument(py::handle value, const std::string& name);
 Setting settings_argument(py::handle value, const std::string& name);  ///< of a dict
 

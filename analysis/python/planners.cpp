@@ -131,11 +131,13 @@ void add_plan(py::module_& module) {
           "A plan by kind and options, as in a scenario: Plan.of(\"square\", rows=4).")
       .def_static(
           "padded",
-          [](const std::string& kind, int layers, const py::kwargs& options) {
-            return plan_source(kind, options)->padded(layers);
+          [](const std::string& kind, const py::object& layers, const py::kwargs& options) {
+            const auto added = integer_argument(layers, "layers", 0, formations::most_layers);
+            return plan_source(kind, options)->padded(static_cast<int>(added));
           },
           py::arg("kind"), py::arg("layers") = 1,
-          "The same with more lattice positions on every side, for formation_quality().")
+          "The same with up to 100 more lattice positions on every side, for formation_quality().\n"
+          "Raises InputError.")
       .def("__len__", &Plan::size)
       .def_property_readonly("slots", &slots_of, "Array (slots, 2), metres.")
       .def_property_readonly(

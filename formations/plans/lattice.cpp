@@ -32,9 +32,9 @@ struct Lattice final : PlanSource {
   Plan plan() const override { return padded(0); }
 
   Plan padded(int layers) const override {
-    if (layers < 0) {
+    if (layers < 0 || layers > most_layers) {
       throw InputError(origin, "a lattice cannot be padded by " + std::to_string(layers) +
-                                   " layers; give 0 or more");
+                                   " layers; give 0 to " + std::to_string(most_layers));
     }
     const std::int64_t more = std::int64_t{2} * layers;
     const std::int64_t padded_rows = rows + more;

@@ -496,6 +496,20 @@ class Planning(Desk):
         with self.assertRaisesRegex(shoal.InputError, "two columns"):
             shoal.Plan([1, 2, 3])
 
+    def test_a_plan_is_padded_as_far_as_the_quality_of_a_run(self):
+        sizes = {"rows": 1, "columns": 1}
+        self.assertEqual(len(shoal.Plan.padded("square", **sizes)), 9)
+        self.assertEqual(len(shoal.Plan.padded("square", layers=100, **sizes)), 201**2)
+        for kind in ("square", "letters"):
+            for layers in (-1, 101, 10**6, 2**70):
+                with self.assertRaisesRegex(shoal.InputError, "^layers is .*; it takes from 0 to 100"):
+                    shoal.Plan.padded(kind, layers=layers)
+        for layers in (1.5, "2", True, None):
+            with self.assertRaisesRegex(shoal.InputError, "^layers is .*; it takes an integer"):
+                shoal.Plan.padded("square", layers=layers)
+        with self.assertRaisesRegex(shoal.InputError, "it takes from 0 to 100"):
+            shoal.scenario("redsea_square", {"quality.layers": 101})
+
 
 class Problems(Desk):
     def test_every_solver_that_takes_it_finds_the_minimum(self):

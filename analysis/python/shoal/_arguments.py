@@ -23,7 +23,7 @@ def whole(value: Any, what: str, least: int | None = None, most: int | None = No
     if number.bit_length() > 63:
         raise _shoal.InputError(f"{what} is an integer of more than 64 bits, which is too large")
     if (least is not None and number < least) or (most is not None and number > most):
-        raise _refused(what, number, f"at least {least}" if most is None else f"{least} to {most}")
+        raise _refused(what, number, f"at least {least}" if most is None else f"from {least} to {most}")
     return number
 
 
