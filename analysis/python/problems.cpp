@@ -2,12 +2,14 @@
 #include <cmath>
 
 #include "conversions.hpp"
+#include "shoal/core/interruption.hpp"
 #include "shoal/core/text.hpp"
 #include "shoal/formations/behaviour.hpp"
 #include "shoal/solvers/loss.hpp"
 #include "shoal/solvers/matching/matching.hpp"
 #include "shoal/solvers/registration/registration.hpp"
 #include "shoal/solvers/solver.hpp"
+#include "watch.hpp"
 
 namespace shoal::python {
 namespace {
@@ -218,8 +220,14 @@ py::dict matched(const py::object& seen, const py::object& slots, const py::obje
   }
   const auto matcher = Registry<solvers::Matcher>::instance().make(
       kind, settings_argument(options, "options"), "matching." + kind);
-  const solvers::MatchingSolution solution =
-      matcher->solve({.points = places, .slots = plan, .ownship_weight = ownship_weight});
+  const solvers::MatchingProblem problem{
+      .points = places, .slots = plan, .ownship_weight = ownship_weight};
+  if (const auto why = matcher->refuses(problem)) throw InputError(kind + " " + *why);
+  const solvers::MatchingSolution solution = [&] {
+    const Interruption interruption(python_signals());
+    const py::gil_scoped_release free;
+    return matcher->solve(problem);
+  }();
   py::dict answer;
   answer["slots"] = std::vector<int>(solution.slot_of_point.begin(), solution.slot_of_point.end());
   answer["rotation_rad"] = solution.rotation;
@@ -299,7 +307,8 @@ void add_problems(py::module_& module) {
       py::arg("ownship_weight") = solvers::MatchingProblem{}.ownship_weight,
       py::arg("solver") = "sampled", py::arg("options") = py::dict(),
       "Which slots points take, and how they are turned onto the plan; the own position first.\n"
-      "Arrays (n, 2), metres. A dict: slots, rotation_rad, cost, usable.");
+      "Arrays (n, 2), metres. A dict: slots, rotation_rad, cost, usable. Ctrl-C ends it. Raises\n"
+      "InputError, also if points x rotations x slots are more than 1e9.");
 }
 
 }  // namespace shoal::python

@@ -78,4 +78,16 @@ std::unique_ptr<scenarios::Observer> watch(const scenarios::Scenario& scenario,
   return std::make_unique<Watch>(scenario, std::move(progress));
 }
 
+std::function<void()> python_signals() {
+  using Clock = std::chrono::steady_clock;
+  return [last = Clock::now()]() mutable {
+    constexpr std::chrono::milliseconds pause(200);
+    const Clock::time_point now = Clock::now();
+    if (now - last < pause) return;
+    last = now;
+    const py::gil_scoped_acquire held;
+    if (PyErr_CheckSignals() != 0) throw py::error_already_set();
+  };
+}
+
 }  // namespace shoal::python

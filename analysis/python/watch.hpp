@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <memory>
 
 #include "conversions.hpp"
@@ -13,5 +14,9 @@ namespace shoal::python {
 /// hold, and throws py::error_already_set.
 std::unique_ptr<scenarios::Observer> watch(const scenarios::Scenario& scenario,
                                            py::object progress);
+
+/// For an Interruption of work that Python waits for: Ctrl-C ends it. It takes the interpreter,
+/// which may be held or not, and throws py::error_already_set.
+std::function<void()> python_signals();
 
 }  // namespace shoal::python

@@ -4,10 +4,14 @@
 #include <algorithm>
 #include <numeric>
 
+#include "shoal/core/interruption.hpp"
 #include "shoal/solvers/matching/points.hpp"
 
 namespace shoal::solvers {
 namespace {
+
+// Rows or steps between two looks: some milliseconds, and never in a small swarm.
+constexpr std::size_t steps_unchecked = 64;
 
 std::size_t at(int i) {
   return static_cast<std::size_t>(i);
@@ -49,6 +53,7 @@ AssignmentStatus AssignmentSolver::solve_similar(std::span<const double> costs, 
   const std::int64_t begin = rows_scanned_;
   for (std::size_t k = 0; k < pending_.size(); ++k) {
     const int i = pending_[k];
+    if (k % steps_unchecked == steps_unchecked - 1) check_interruption();
     if (rows_scanned_ - begin >= most_rows) {
       if (!take_free_columns(std::span(pending_).subspan(k))) return AssignmentStatus::infeasible;
       cost_ = sum_of_costs();
@@ -101,6 +106,7 @@ bool AssignmentSolver::place_spare_rows(double share, double bound) {
   if (leave_dearest(highest_price())) return true;
 
   for (int i = rows_; i < columns_; ++i) {
+    if (at(i) % steps_unchecked == steps_unchecked - 1) check_interruption();
     const double highest = highest_price();
     int column = 0;
     while (column < columns_ && !(is_free(column) && price_[at(column)] == highest)) ++column;
@@ -174,6 +180,7 @@ AssignmentSolver::Path AssignmentSolver::augment(int start, double rest, double 
   steps_.push_back({start, -1, 0.0, 0.0});
   for (;;) {
     const Step& last = steps_.back();
+    if (steps_.size() % steps_unchecked == 0) check_interruption();
     ++rows_scanned_;
     shortest = shortest.min(row_array(last.row) - open_price - last.offset);
     const double length = shortest.minCoeff();

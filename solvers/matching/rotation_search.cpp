@@ -6,6 +6,7 @@
 
 #include "shoal/core/angles.hpp"
 #include "shoal/core/error.hpp"
+#include "shoal/core/interruption.hpp"
 #include "shoal/core/text.hpp"
 #include "shoal/solvers/matching/points.hpp"
 
@@ -13,6 +14,7 @@ namespace shoal::solvers {
 namespace {
 
 constexpr double division_tolerance = 1e-9;
+constexpr int turns_unchecked = 4;
 
 }  // namespace
 
@@ -97,6 +99,7 @@ TurnedMatch RotationSearch::search(const Turns& turns, const AlignedSlots& slots
   for (int step = 0; step < turns.count(); ++step) {
     const int turn = (static_cast<int>(first) + step) % turns.count();
     if (glance_[turn] > limit) continue;
+    if (step % turns_unchecked == turns_unchecked - 1) check_interruption();
     if (!fill_costs(slots, turns.cosine(turn), turns.sine(turn), limit)) continue;
     if (assignment_.solve_similar(costs_, limit) != AssignmentStatus::optimal) continue;
     cost_of_turn_[static_cast<std::size_t>(turn)] = assignment_.cost();

@@ -9,6 +9,8 @@
 #include <tuple>
 
 #include "shoal/core/angles.hpp"
+#include "shoal/core/interruption.hpp"
+#include "shoal/core/text.hpp"
 #include "shoal/solvers/matching/points.hpp"
 #include "shoal/solvers/matching/rotation_search.hpp"
 #include "shoal/solvers/matching/slot_subsets.hpp"
@@ -19,6 +21,9 @@ namespace {
 // Metres. The wider, the longer it holds, and the more matches there are to look at.
 constexpr double margin_m = 60.0;
 constexpr std::size_t most_candidates = 8;
+constexpr std::size_t subsets_unchecked = 64;
+// Points x rotations x slots.
+constexpr double most_work = 1e9;
 constexpr int longest_pause = 32;
 
 /// What is remembered of a caller.
@@ -87,6 +92,14 @@ class SampledMatcher final : public Matcher {
 
   std::unique_ptr<Memory> new_memory() const override {
     return std::make_unique<MemoryOf<Recollection>>();
+  }
+
+  std::optional<std::string> refuses(const MatchingProblem& problem) const override {
+    const double work = static_cast<double>(problem.points.size()) *
+                        static_cast<double>(problem.slots.size()) * turns_.count();
+    if (work <= most_work) return std::nullopt;
+    return "takes at most " + shortest(most_work) + " points x rotations x slots, and here are " +
+           shortest(work) + "; give fewer points or slots, or a greater delta_theta_deg";
   }
 
   using Matcher::solve;
@@ -173,6 +186,7 @@ class SampledMatcher final : public Matcher {
     last.candidates.clear();
     work.visits.clear();
     for (std::size_t i = 0; i < subsets.size(); ++i) {
+      if (i % subsets_unchecked == subsets_unchecked - 1) check_interruption();
       work.visits.push_back({i, work.search.bound_below(subsets[i].aligned)});
     }
     std::ranges::sort(work.visits, [](const auto& a, const auto& b) {

@@ -4,6 +4,7 @@
 #include <array>
 
 #include "shoal/core/angles.hpp"
+#include "shoal/core/interruption.hpp"
 #include "shoal/core/transform.hpp"
 #include "shoal/solvers/matching/points.hpp"
 
@@ -11,6 +12,7 @@ namespace shoal::solvers {
 namespace {
 
 bool coincide(const AlignedSlots& a, const AlignedSlots& b, double angle) {
+  check_interruption();
   const Transform2 turned = Transform2::from_angle(angle, Eigen::Vector2d::Zero());
   for (Eigen::Index i = 0; i < a.x.size(); ++i) {
     const Eigen::Vector2d p = turned * Eigen::Vector2d(a.x[i], a.y[i]);
@@ -34,6 +36,7 @@ SlotSubsets::SlotSubsets(int points, std::span<const Eigen::Vector2d> slots, con
                          const Turns& turns)
     : points_(points), slots_(slots.begin(), slots.end()), rule_(rule) {
   for (int seed = 0; seed < static_cast<int>(slots_.size()); ++seed) {
+    check_interruption();
     SlotSubset subset = around(seed);
     const bool known = std::ranges::any_of(subsets_, [&](const SlotSubset& earlier) {
       return alike(subset.aligned, earlier.aligned, turns);

@@ -624,6 +624,29 @@ class Problems(Desk):
             with self.subTest(name=name), self.assertRaisesRegex(shoal.InputError, f"^{name} is .*; it takes"):
                 call()
 
+    def test_a_match_of_too_many_is_refused(self):
+        places = numpy.random.default_rng(1).uniform(0, 1000, (3000, 2))
+        with self.assertRaisesRegex(shoal.InputError, r"at most 1e\+09 points x rotations x slots.*3.24e\+09"):
+            shoal.match(places, places, options={"delta_theta_deg": 1})
+
+    def test_a_match_is_interrupted(self):
+        self.write("long.py", """
+import numpy
+import shoal
+places = numpy.random.default_rng(1).uniform(0, 1000, (2, 4000, 2))
+print("on its way", flush=True)
+shoal.match(places[0, :2000], places[1])  # some minutes
+""")
+        with subprocess.Popen([sys.executable, "long.py"], cwd=self.desk, text=True,
+                              stdout=subprocess.PIPE, stderr=subprocess.PIPE) as running:
+            try:
+                self.assertEqual(running.stdout.readline(), "on its way\n")
+                running.send_signal(signal.SIGINT)
+                _, complaint = running.communicate(timeout=120)
+            finally:
+                running.kill()
+        self.assertIn("KeyboardInterrupt", complaint)
+
     def test_registration_and_matching(self):
         points = numpy.array([[0, 0], [100, 0], [0, 50], [30, 30]], float)
         turn = numpy.array([[0, -1], [1, 0]])
