@@ -5,7 +5,7 @@
 #include "shoal/analysis/experiments/trial.hpp"
 #include "shoal/analysis/reporting/known_current.hpp"
 #include "shoal/analysis/reporting/run_report.hpp"
-#include "shoal/scenarios/inheritance.hpp"
+#include "shoal/core/interruption.hpp"
 #include "shoal/scenarios/netcdf_guard.hpp"
 #include "shoal/scenarios/toml_file.hpp"
 #include "watch.hpp"
@@ -21,9 +21,7 @@ scenarios::Scenario read(py::object scenario, const py::dict& changes) {
   } else {
     root = scenarios::read_toml(scenarios::find_scenario(py::str(scenario)));
   }
-  Setting given = to_setting(changes);
-  scenarios::require_no_scenario_left_out(root, given);
-  overlay(root, std::move(given));
+  overlay(root, to_setting(changes));
   return scenarios::read_scenario(root);
 }
 
@@ -34,6 +32,7 @@ std::string run(const py::object& scenario, const py::dict& changes, const std::
   const scenarios::Scenario read_in = read(scenario, changes);
   const std::unique_ptr<scenarios::Observer> watching = watch(read_in, std::move(progress));
   const py::gil_scoped_release free;
+  const Interruption interruption(python_signals());  // between two looks of the watch
   const analysis::Trial trial = analysis::run_trial(
       read_in, {.threads = threads, .record = record, .observers = {watching.get()}});
   analysis::write_trial(trial, name, folder);
@@ -50,6 +49,7 @@ double quality(const py::object& positions, const formations::Plan& plan, const 
     throw InputError("there are " + std::to_string(places.size()) + " positions for " +
                      std::to_string(plan.size()) + " slots; pad the plan");
   }
+  const Interruption interruption(python_signals());
   return analysis::FormationQuality(plan, options).of(places).quality_m;
 }
 

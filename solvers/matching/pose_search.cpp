@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "shoal/core/interruption.hpp"
 #include "shoal/core/transform.hpp"
 #include "shoal/solvers/matching/points.hpp"
 
@@ -30,6 +31,7 @@ bool later(const PoseBox& a, const PoseBox& b) {
 double spacing_of(std::span<const Eigen::Vector2d> slots) {
   double sum = 0.0;
   for (const Eigen::Vector2d& slot : slots) {
+    check_interruption();
     double least = infinity;
     for (const Eigen::Vector2d& other : slots) {
       if (&other != &slot) least = std::min(least, (other - slot).squaredNorm());
@@ -161,6 +163,7 @@ double PoseSearch::search(const PoseBox& region, std::int64_t most_work) {
   double closed = infinity;
   open_.assign(1, region);
   while (!open_.empty() && open_.front().bound < limit() && work() < most_work) {
+    check_interruption();
     std::ranges::pop_heap(open_, later);
     PoseBox box = open_.back();
     open_.pop_back();

@@ -6,6 +6,7 @@
 #include <limits>
 #include <numbers>
 
+#include "shoal/core/interruption.hpp"
 #include "shoal/core/transform.hpp"
 
 namespace shoal::solvers {
@@ -19,6 +20,7 @@ constexpr double farthest_cell = 1e6;
 bool permuted(std::span<const Eigen::Vector2d> slots, double angle, double same_m) {
   const Transform2 turn = Transform2::from_angle(angle, Eigen::Vector2d::Zero());
   return std::ranges::all_of(slots, [&](const Eigen::Vector2d& slot) {
+    check_interruption();
     const Eigen::Vector2d turned = turn * slot;
     return std::ranges::any_of(slots, [&](const Eigen::Vector2d& other) {
       return (turned - other).squaredNorm() <= same_m * same_m;
@@ -36,6 +38,7 @@ Eigen::Vector2d shortest(std::span<const Eigen::Vector2d> slots, Counts counts) 
   double least = std::numeric_limits<double>::infinity();
   Eigen::Vector2d found = Eigen::Vector2d::Zero();
   for (std::size_t i = 0; i < slots.size(); ++i) {
+    check_interruption();
     for (std::size_t j = 0; j < i; ++j) {
       const Eigen::Vector2d v = slots[i] - slots[j];
       // Rounding must not decide which of several equally short ones is taken.

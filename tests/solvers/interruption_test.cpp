@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "shoal/solvers/matching/matching.hpp"
+#include "shoal/solvers/matching/rigid_matching.hpp"
 
 namespace shoal::solvers {
 namespace {
@@ -42,6 +43,21 @@ TEST(Interruption, EndsAMatchWhereverItIsAndLeavesNoTrace) {
     }
     EXPECT_EQ(matcher->solve(problem).cost, expected) << checks;
   }
+}
+
+TEST(Interruption, EndsARigidMatchWhileItIsMadeAndWhileItSearches) {
+  const auto points = scattered(20, 3), slots = scattered(200, 4);
+  {
+    const Interruption interruption = after(100);
+    EXPECT_THROW(RigidMatching(slots, {}), Enough);
+  }
+  RigidMatching matching(slots, {});
+  const double expected = matching.match(points, std::nullopt).mean_m;
+  {
+    const Interruption interruption = after(1);
+    EXPECT_THROW(matching.match(points, std::nullopt), Enough);
+  }
+  EXPECT_EQ(RigidMatching(slots, {}).match(points, std::nullopt).mean_m, expected);
 }
 
 TEST(Matching, RefusesMoreWorkThanItDoes) {
