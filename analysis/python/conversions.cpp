@@ -22,6 +22,7 @@ std::string text_of(py::handle value) {
   Py_ssize_t size = 0;
   const char* bytes = PyUnicode_AsUTF8AndSize(value.ptr(), &size);
   if (bytes) return {bytes, static_cast<std::size_t>(size)};
+  if (!PyErr_ExceptionMatches(PyExc_UnicodeError)) throw py::error_already_set();
   PyErr_Clear();
   throw InputError("the text " + shown(value) + " is not valid Unicode");
 }
