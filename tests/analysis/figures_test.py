@@ -183,6 +183,11 @@ measures = ["energy_mean_wh"]
         record.unlink()
         self.assert_complains(self.shoal("figures", "potentials_channel"), 2, ["has no run.nc"])
 
+    def test_empty_arguments(self):
+        for arguments in (("",), (".", "--out", ""), (".", "--only", ""), (".", "--columns", "")):
+            self.assert_complains(self.shoal("figures", *arguments), 2, ["is empty", "--help"])
+        self.assert_complains(self.shoal("figures", ".", "--columns", "x"), 2, ["int", "'x'"])
+
     def test_a_folder_that_takes_nothing(self):
         self.recorded("potentials_channel")
         (self.desk / "file").write_text("")

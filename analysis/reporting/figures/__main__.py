@@ -28,16 +28,27 @@ class Parser(argparse.ArgumentParser):
         complain(message + "; see shoal figures --help", 2)
 
 
+def given(kind):
+    """An argument of that kind: an unset variable in a job's script must not stand for a default."""
+    def converted(text):
+        if not text:
+            raise argparse.ArgumentTypeError("is empty")
+        return kind(text)
+
+    converted.__name__ = kind.__name__  # which messages say
+    return converted
+
+
 def main():
     parser = Parser(prog="shoal figures", description=__doc__)
-    parser.add_argument("what", type=pathlib.Path,
+    parser.add_argument("what", type=given(pathlib.Path),
                         help="folder of shoal run or shoal sweep, or file of performance profiles")
-    parser.add_argument("--only", nargs="+", metavar="FIGURE",
+    parser.add_argument("--only", type=given(str), nargs="+", metavar="FIGURE",
                         help="some of them: tables of a study, or, of a run, "
                         + ", ".join(catalogue.FIGURES))
-    parser.add_argument("--columns", type=int, choices=(1, 2), default=1,
+    parser.add_argument("--columns", type=given(int), choices=(1, 2), default=1,
                         help="width, in columns of a paper (default: 1)")
-    parser.add_argument("--out", type=pathlib.Path, help="default: figures in or beside it")
+    parser.add_argument("--out", type=given(pathlib.Path), help="default: figures in or beside it")
     options = parser.parse_args()
     what = options.what
     out = options.out or (what if what.is_dir() else what.parent) / "figures"
