@@ -3,12 +3,14 @@
     python3 figures_test.py SHOAL
 """
 
+import math
 import pathlib
 import shutil
 import subprocess
 import sys
 
 import desk
+import netCDF4
 from desk import Desk
 from study_desk import SHORT
 
@@ -28,6 +30,24 @@ FIGURES = {"potentials_channel": {*TIME, "trajectories", "quality", "passage", "
            "construction_hexagonal": {*TIME, "trajectories", "quality", "potential", "cost_surface"}}
 REPEL = ("--set", "behaviour.kind=attraction_repulsion")
 BEGINS = {".pdf": b"%PDF-", ".svg": b"<?xml"}
+
+
+def write_record(file, dimensions=(2, 3), **numbers):
+    """run.nc of two vehicles at three instants, or of other dimensions; of which some numbers are
+    these, and those that are None are left out."""
+    numbers = {**dict.fromkeys(("x", "y", "speed", "target_reason"), 0), "time": [0, 1, 2], **numbers}
+    with netCDF4.Dataset(file, "w") as record:
+        for name, size in zip(("vehicle", "time"), dimensions):
+            record.createDimension(name, size or None)  # None may be none yet
+        for name, value in numbers.items():
+            if value is None:
+                continue
+            along = ("time",) if name == "time" else ("vehicle", "time")
+            variable = record.createVariable(name, "f4", along, chunksizes=len(along) * (1,))
+            if dimensions == (2, 3):
+                variable[:] = value
+            if name == "target_reason":
+                variable.flag_values = [0, 1, 2, 3, 4]
 
 
 class Figures(Desk):
@@ -182,6 +202,35 @@ measures = ["energy_mean_wh"]
         self.assert_complains(self.shoal("figures", "potentials_channel"), 2, ["is damaged"])
         record.unlink()
         self.assert_complains(self.shoal("figures", "potentials_channel"), 2, ["has no run.nc"])
+
+    def test_a_record_that_shoal_never_wrote(self):
+        self.recorded("potentials_channel", "--no-report")
+        for numbers, says in (({"x": 1e30}, "x is 1e+30 somewhere"),
+                              ({"time": [0, 1, math.nan]}, "time is nan somewhere"),
+                              ({"target_reason": 7}, "target_reason is 7 somewhere"),
+                              ({"time": None}, "is none that shoal run wrote"),
+                              ({"speed": None}, "has no speed by vehicle and time"),
+                              ({"dimensions": (0, 3)}, "holds no vehicle"),
+                              ({"dimensions": (2, 0)}, "holds no instant"),
+                              ({"dimensions": (2, 1 << 40)}, "more than 268435456 numbers")):
+            with self.subTest(says):
+                write_record(self.desk / "potentials_channel/run.nc", **numbers)
+                self.assert_complains(self.shoal("figures", "potentials_channel"), 2,
+                                      ["potentials_channel/run.nc", says])
+        write_record(self.desk / "potentials_channel/run.nc")
+        self.drawn("potentials_channel", "--only", "speeds")
+
+    def test_what_cannot_be_read(self):
+        long = 300 * "a"
+        self.assert_complains(self.shoal("figures", long), 2, ["cannot read " + long, "too long"])
+        self.write("study/study.toml", b"title = '\xff'\n")
+        self.assert_complains(self.shoal("figures", "study"), 2, ["study is damaged"])
+
+    def test_a_full_disk(self):
+        self.recorded("potentials_channel", "--no-report")
+        done = self.sh("ulimit -f 2; $SHOAL figures potentials_channel --only speeds --out out")
+        self.assert_complains(done, 1, ["cannot write out", "too large"])
+        self.assertEqual(list((self.desk / "out").iterdir()), [])
 
     def test_empty_arguments(self):
         for arguments in (("",), (".", "--out", ""), (".", "--only", ""), (".", "--columns", "")):

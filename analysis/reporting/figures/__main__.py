@@ -1,6 +1,7 @@
 """Figures for papers, of what `shoal run`, `shoal sweep` or `shoal solve --profiles` wrote."""
 
 import argparse
+import csv
 import pathlib
 import sys
 
@@ -39,6 +40,20 @@ def given(kind):
     return converted
 
 
+def read(what):
+    """The figures there are, by name; of what cannot be read, one line."""
+    try:
+        return catalogue.figures_of(what)
+    except NoRun as error:
+        complain(error, 2)
+    except OSError as error:
+        if error.errno and error.errno > 0:  # below stands what netCDF makes of a file
+            complain(f"cannot read {what}: {error.strerror}", 2)
+        complain(f"{what} is damaged: {error.strerror or error}", 2)
+    except (ValueError, RuntimeError, csv.Error) as error:  # no text, no TOML, no CSV
+        complain(f"{what} is damaged: {' '.join(str(error).split())}", 2)
+
+
 def main():
     parser = Parser(prog="shoal figures", description=__doc__)
     parser.add_argument("what", type=given(pathlib.Path),
@@ -51,13 +66,13 @@ def main():
     parser.add_argument("--out", type=given(pathlib.Path), help="default: figures in or beside it")
     options = parser.parse_args()
     what = options.what
+    known = read(what)
+    for name in options.only or []:
+        if name not in known:
+            complain(f"{what} has no figure \"{name}\"; there are {', '.join(known)}", 2)
     out = options.out or (what if what.is_dir() else what.parent) / "figures"
     made, refused = [], []
     try:
-        known = catalogue.figures_of(what)
-        for name in options.only or []:
-            if name not in known:
-                complain(f"{what} has no figure \"{name}\"; there are {', '.join(known)}", 2)
         for name in options.only or known:
             with style.page(options.columns):
                 try:
@@ -72,7 +87,7 @@ def main():
     except NoRun as error:
         complain(error, 2)
     except OSError as error:
-        complain(f"cannot write {error.filename}: {error.strerror}", 1)
+        complain(f"cannot write {error.filename or out}: {error.strerror}", 1)
     if refused and not made:
         complain(refused[0], 2)
     for reason in refused:

@@ -11,6 +11,10 @@ class NoRun(Exception):
     """The folder is none that `shoal run` wrote, or is damaged."""
 
 
+MOST_NUMBERS = 1 << 28  # of a variable; shoal reads no more at once either
+FARTHEST = 1e12
+
+
 class RecordedRun:
     """A trial. Metres east and north, seconds; vehicles are numbered in the order of the plan."""
 
@@ -19,34 +23,25 @@ class RecordedRun:
             if not (folder / name).is_file():
                 raise NoRun(f"{folder} has no {name}; name a folder that shoal run wrote, "
                             "with trial.record_every_s above 0")
-        try:
-            self.scenario = tomllib.loads((folder / "scenario.toml").read_text())
-            self._values, self._dimensions = {}, {}
-            for name in ("run.nc", "series.nc"):
-                with netCDF4.Dataset(folder / name) as record:
-                    self._take(record.variables)
-        except (tomllib.TOMLDecodeError, OSError, RuntimeError) as error:
-            raise NoRun(f"{folder} is damaged: {error}") from error
-        self.time_s = self._values["time"]
-
-    def _take(self, variables):
-        for name, variable in variables.items():
-            self._dimensions[name] = variable.dimensions
-            if variable.dtype.kind in "fiu":
-                values = variable[:]
-                masked = hasattr(values, "filled")
-                self._values[name] = values.filled(math.nan) if masked else values
+        self.scenario = tomllib.loads((folder / "scenario.toml").read_text(encoding="utf-8"))
+        self._file = folder / "run.nc"
+        with netCDF4.Dataset(self._file) as record:
+            self._vehicles = vehicles_of(record.variables, self._file)
+        self.time_s = self._vehicles.pop("time")
+        with netCDF4.Dataset(folder / "series.nc") as record:
+            self._series = series_of(record.variables, folder / "series.nc")
 
     def by_vehicle(self, name):
         """A recorded number: rows are instants, columns vehicles."""
-        values = numpy.asarray(self._values[name], dtype=float)
-        return values if self._dimensions[name][0] == "time" else values.T
+        if name not in self._vehicles:
+            raise NoRun(f"{self._file} has no {name} by vehicle and time; it is none that shoal run "
+                        "wrote, or damaged")
+        return self._vehicles[name].T
 
     def series(self, name):
         """(seconds, numbers) of a measure against time, or nothing if it has no value."""
-        if name not in self._values or not numpy.isfinite(self._values[name]).any():
-            return None
-        return self._values[self._dimensions[name][0]], self._values[name]
+        seconds, numbers = self._series.get(name, ((), ()))
+        return (seconds, numbers) if numpy.isfinite(numbers).any() else None
 
     def ends(self):
         """(east, north, whether it was lost) of each vehicle, where it was recorded last."""
@@ -73,3 +68,53 @@ class RecordedRun:
         x, y = self.waypoint
         away = numpy.hypot(self.by_vehicle("x") - x, self.by_vehicle("y") - y)
         return (away <= self.scenario["waypoint"]["radius_m"]).any(axis=0)
+
+
+def vehicles_of(variables, file):
+    """name -> its numbers by vehicle and instant, and those of time; refuses what shoal never
+    wrote."""
+    if not is_along(variables, "time", ("time",)) or not is_along(variables, "x",
+                                                                  ("vehicle", "time")):
+        raise NoRun(f"{file} is none that shoal run wrote; name the folder of a run")
+    for name, what in (("time", "instant"), ("x", "vehicle")):
+        if variables[name].size == 0:
+            raise NoRun(f"{file} holds no {what}; run the trial again")
+    names = ["time", *(name for name in variables if is_along(variables, name, ("vehicle", "time")))]
+    return {name: possible(name, variables[name], file) for name in names}
+
+
+def series_of(variables, file):
+    """name -> (seconds, numbers)."""
+    return {name: tuple(numbers_of(variables[each], file) for each in (f"{name}_time", name))
+            for name in variables
+            if is_along(variables, name, (f"{name}_time",))
+            and is_along(variables, f"{name}_time", (f"{name}_time",))}
+
+
+def is_along(variables, name, dimensions):
+    """Whether there are numbers of that name, of these dimensions."""
+    variable = variables.get(name)
+    return (variable is not None and isinstance(variable.dtype, numpy.dtype)
+            and variable.dtype.kind in "fiu" and variable.dimensions == dimensions)
+
+
+def numbers_of(variable, file):
+    if variable.size > MOST_NUMBERS:
+        raise NoRun(f"{file}: {variable.name} has more than {MOST_NUMBERS} numbers; that is more "
+                    "than shoal reads at once")
+    return numpy.ma.filled(numpy.ma.asarray(variable[:], dtype=float), math.nan)
+
+
+def possible(name, variable, file):
+    """Its numbers, which are such as shoal writes."""
+    values = numbers_of(variable, file)
+    fine = numpy.abs(values) <= FARTHEST
+    if name != "time":
+        fine |= numpy.isnan(values)
+    if name == "target_reason":
+        codes = numpy.ravel(getattr(variable, "flag_values", ()))
+        fine &= numpy.isnan(values) | numpy.isin(values, codes)
+    if not fine.all():
+        raise NoRun(f"{file}: {name} is {values[~fine][0]:g} somewhere, as in no run of shoal; run "
+                    "the trial again")
+    return values

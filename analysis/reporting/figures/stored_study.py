@@ -63,10 +63,7 @@ class StoredStudy:
     """The tables of a study by name, in its order, with the requests that they answer."""
 
     def __init__(self, folder):
-        try:
-            study = tomllib.loads((folder / "study.toml").read_text())
-        except (tomllib.TOMLDecodeError, OSError) as error:
-            raise NoRun(f"{folder} is damaged: {error}") from error
+        study = tomllib.loads((folder / "study.toml").read_text(encoding="utf-8"))
         files = {file.stem: file for file in sorted((folder / "tables").glob("*.csv"))}
         if not files:
             raise NoRun(f"{folder} has no tables; shoal tables {folder} writes them")

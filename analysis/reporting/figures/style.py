@@ -1,6 +1,7 @@
 """How all figures look, and how they are written."""
 
 import contextlib
+import io
 import os
 
 import matplotlib.colors
@@ -102,8 +103,10 @@ def save(figure, folder, name):
                              ("svg", {"Date": None, "Creator": [CREATOR]})):
         file = folder / f"{name}.{ending}"
         part = folder / f".{name}.{ending}.part"
+        whole = io.BytesIO()  # Matplotlib does not survive a full disk
+        figure.savefig(whole, format=ending, metadata=metadata)
         try:
-            figure.savefig(part, format=ending, metadata=metadata)
+            part.write_bytes(whole.getbuffer())
             os.replace(part, file)
         finally:
             part.unlink(missing_ok=True)
