@@ -108,6 +108,12 @@ test("a long table is closed, and opens by its name in the contents", async () =
   const page = await open(browser, report);
   const isOpen = () => page.$eval('#tables details[id^="long:"]', details => details.open);
   assert.equal(await isOpen(), false);
+  const [bottom, top] = await page.evaluate(() => {
+    const long = document.querySelector('#tables details[id^="long:"]');
+    return [long.querySelector("summary").getBoundingClientRect().bottom,
+            long.nextElementSibling.getBoundingClientRect().top];
+  });
+  assert.ok(top >= bottom, "what stands below hides the line that opens it");
   await page.click("#contents a >> text=against time");
   assert.equal(await isOpen(), true);
   page.quiet();
