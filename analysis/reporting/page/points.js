@@ -23,6 +23,10 @@ const points = {
     const svg = this.shape("svg", {class: "strip", role: "img",
       "aria-label": `${row.label}: mean ${numberText(row.value)}, ${row.each.length} trials from `
         + `${numberText(Math.min(...row.each))} to ${numberText(Math.max(...row.each))}`});
+    if (row.low !== undefined) {  // below the points, which stay dark on it
+      svg.append(this.shape("line", {x1: `${place(row.low)}%`, x2: `${place(row.high)}%`, y1: 13,
+                                     y2: 13, class: "interval"}));
+    }
     const depth = new Map();
     for (const x of [...row.each].sort((a, b) => a - b)) {
       const bin = Math.round(place(x));
@@ -34,10 +38,6 @@ const points = {
       title.textContent = numberText(x);
       dot.append(title);
       svg.append(dot);
-    }
-    if (row.low !== undefined) {
-      svg.append(this.shape("line", {x1: `${place(row.low)}%`, x2: `${place(row.high)}%`, y1: 13,
-                                     y2: 13, class: "interval"}));
     }
     svg.append(this.shape("line", {x1: `${place(row.value)}%`, x2: `${place(row.value)}%`, y1: 5,
                                    y2: 21, class: "mean"}));

@@ -104,6 +104,43 @@ test("shows every trial as a point beside mean and interval", async () => {
   page.quiet();
 });
 
+/** WCAG 2.1, of two colours as [red, green, blue]. */
+function contrast(...colours) {
+  const [dark, light] = colours.map(colour => {
+    const [r, g, b] = colour.map(c => c / 255)
+      .map(c => (c <= 0.03928 ? c / 12.92 : ((c + 0.055) / 1.055) ** 2.4));
+    return 0.2126 * r + 0.7152 * g + 0.0722 * b;
+  }).sort((a, b) => a - b);
+  return (light + 0.05) / (dark + 0.05);
+}
+
+test("points stand out from paper and intervals, arrows of a current from paper", async () => {
+  for (const colorScheme of ["light", "dark"]) {
+    const page = await open(browser, report, {colorScheme});
+    const {paper, current, trial, interval, share, over} = await page.evaluate(() => {
+      const channels = text => text.match(/[\d.]+/g).slice(0, 3).map(Number);
+      const variable = name => {
+        document.body.style.color = `var(--${name})`;
+        return channels(getComputedStyle(document.body).color);
+      };
+      const strip = [...document.querySelectorAll(".strip")].find(
+        each => each.querySelector(".interval"));
+      const [line, dot] = [".interval", ".trial"].map(each => strip.querySelector(each));
+      return {paper: variable("paper"), current: variable("current"),
+              trial: channels(getComputedStyle(dot).fill),
+              interval: channels(getComputedStyle(line).stroke),
+              share: Number(getComputedStyle(line).strokeOpacity),
+              over: Boolean(line.compareDocumentPosition(dot) & Node.DOCUMENT_POSITION_FOLLOWING)};
+    });
+    const bar = interval.map((c, k) => share * c + (1 - share) * paper[k]);
+    assert.ok(over, "points are drawn over the interval");
+    assert.ok(contrast(trial, bar) >= 3, `${colorScheme}: ${contrast(trial, bar)}`);
+    assert.ok(contrast(trial, paper) >= 3, colorScheme);
+    assert.ok(contrast(current, paper) >= 3, `${colorScheme}: ${contrast(current, paper)}`);
+    page.quiet();
+  }
+});
+
 test("a long table is closed, and opens by its name in the contents", async () => {
   const page = await open(browser, report);
   const isOpen = () => page.$eval('#tables details[id^="long:"]', details => details.open);
