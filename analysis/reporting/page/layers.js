@@ -53,10 +53,10 @@ function drawCurrent(ctx, {trial, camera, time, look}) {
 function drawCurrentScale(ctx, {trial, camera, look}) {
   const {spacing, fastest} = trial.current;
   const pixels = 0.9 * spacing * camera.scale / Math.max(fastest, 1e-9);
-  const rough = Math.min(fastest, 90 / pixels);
+  if (!(fastest * pixels >= 1)) return;  // no arrow is drawn
+  const rough = Math.max(Math.min(fastest, 90 / pixels), 20 / pixels);  // of short arrows more than one
   const power = 10 ** Math.floor(Math.log10(rough));
   const speed = [5, 2, 1].map(digit => digit * power).find(each => each <= rough);
-  if (!(speed * pixels >= 4)) return;  // too small to read
   const [x, y] = [14, camera.height - 42];
   ctx.strokeStyle = ctx.fillStyle = look.ink;
   ctx.lineWidth = 1.5;

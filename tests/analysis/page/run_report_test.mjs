@@ -313,6 +313,24 @@ test("says what an arrow of the current stands for, and where vehicles hide one 
     return [fitted, player.crowded(), !crowd.hidden];
   });
   assert.deepEqual([fitted, far, hints], [false, true, true]);
+  // Also on a map on which no arrow is longer than a few pixels.
+  const scales = await page.evaluate(() => {
+    const {player} = window.shoal;
+    const {spacing} = player.trial.current;
+    const said = [];
+    const fill = CanvasRenderingContext2D.prototype.fillText;
+    CanvasRenderingContext2D.prototype.fillText = function (text, ...rest) {
+      if (/ m\/s$/.test(text)) said.push(text);
+      fill.call(this, text, ...rest);
+    };
+    return [40, 4, 0.5].map(pixels => {  // between arrows
+      said.length = 0;
+      player.camera.scale = pixels / spacing;
+      player.draw();
+      return said.length;
+    });
+  });
+  assert.deepEqual(scales, [1, 1, 0]);
   page.quiet();
 });
 
