@@ -124,7 +124,7 @@ class Figures(Desk):
         return (self.desk / "out" / "report.html").read_text().count("data:image/svg+xml;base64,")
 
     def test_a_curve_has_the_numbers_of_its_table(self):
-        sys.path.insert(0, str(pathlib.Path(__file__).parents[2] / "analysis" / "figures"))
+        sys.path.insert(0, str(pathlib.Path(__file__).parents[2] / "analysis/reporting/figures"))
         import matplotlib
         matplotlib.use("Agg")
         import of_study
@@ -148,7 +148,7 @@ class Figures(Desk):
                          {(5, 1), (10, 2), (30, 4), (30, 7), (10, 4), (5, 3)})
 
     def test_a_factor_keeps_its_name_where_numbers_have_it(self):
-        sys.path.insert(0, str(pathlib.Path(__file__).parents[2] / "analysis" / "figures"))
+        sys.path.insert(0, str(pathlib.Path(__file__).parents[2] / "analysis/reporting/figures"))
         from long_form import numbers_of
         from stored_study import StudyTable
 
