@@ -121,6 +121,32 @@ class FiguresDrawn(desk.Desk):
                                                      (1, 2) if kind == "steady" else (1,),
                                                      unsaid_difference(request)))
 
+    def test_numbers_that_are_missing_or_only_bounds(self):
+        import of_study
+        from stored_study import StudyTable
+        for rows, says in (
+                ([("a", "300", "3", "0", "0"), ("b", "20", "3", "0", "3"), ("c", "", "0", "3", "")],
+                 {"c (trials failed)", "open: not all trials reached it"}),
+                ([("a", "20", "3", "0", "3"), ("b", "30", "3", "0", "3")], set()),
+                ([(str(k), "20", "3", "0", "3") if k < 5 else (str(k), "", "0", "0", "")
+                  for k in range(6)], {"level 5 (trials not run)"})):
+            rows = [{"level": level, "time_s": value, "time_s_n": n, "time_s_failed": failed,
+                     "time_s_not_run": "0" if value or failed != "0" else "3",
+                     "time_s_reached": reached} for level, value, n, failed, reached in rows]
+            table = StudyTable("t", "", rows)
+            request = {"measures": ["time_s"], "factors": {}}
+            with self.subTest(says):
+                self.assertTrue(self.assert_fine(
+                    lambda: of_study.figure_of(table, request),
+                    more=lambda figure: {text.get_text() for legend in figure.legends
+                                         for text in legend.get_texts()} ^ says))
+
+    def test_a_difference_that_not_all_trials_reached(self):
+        from stored_study import StudyTable
+        for remark, reached in (("Reached by 3 of 3, and by 2 of 3 of the others.", False),
+                                ("Reached by 3 of 3, and by 3 of 3 of the others.", True), ("", True)):
+            row = {"d": "1", "d_n": "3", "d_remarks": remark}
+            self.assertEqual(StudyTable("t", "", [row]).all_reached("d"), [reached])
 
     def test_more_than_a_figure_can_show(self):
         import of_study

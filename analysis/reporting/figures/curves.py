@@ -3,6 +3,7 @@ factor."""
 
 import itertools
 
+import gaps
 import legends
 import matplotlib.ticker
 import names
@@ -92,8 +93,9 @@ def curves(numbers, wording, against, name, of_measure):
     x = [float(number.levels[against]) for number in known]
     if min(x) > 0 and max(x) > WIDE * min(x):
         logarithmic(figure.axes, 10)
-    if len(handles) > 1:
-        legends.explain(figure, *zip(*(handles[j] for j in sorted(handles))), wording)
+    named = [handles[j] for j in sorted(handles)] if len(handles) > 1 else []
+    legends.explain(figure, [line for line, _ in named], [key for _, key in named], wording,
+                    gaps.notes(numbers, wording, against))
     return figure
 
 
@@ -109,6 +111,7 @@ def draw(ax, own, against, k, label):
     own = sorted(own, key=lambda number: float(number.levels[against]))
     x = [float(number.levels[against]) for number in own]
     line = style.curve(ax, x, [number.value for number in own], k, label=label or None)
+    style.opened(line, [not number.reached for number in own])
     trials = [(place, each) for place, number in zip(x, own) for each in number.trials]
     if trials:
         style.trials(ax, *zip(*trials), k)

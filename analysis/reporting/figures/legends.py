@@ -26,11 +26,13 @@ def legend_above(figure, handles, title=None):
     return legend
 
 
-def explain(figure, handles, keys, wording):
-    """Which marks stand for which levels; those of one factor stand below its name."""
+def explain(figure, handles, keys, wording, notes):
+    """Which marks stand for which levels, if any do, and what else is to be said; levels of one
+    factor stand below its name."""
     title = None
-    if all(len(key) == 1 and key[0][0] != UNNAMED for key in keys):
+    if handles and all(len(key) == 1 and key[0][0] != UNNAMED for key in keys):
         title = wording.axis(keys[0][0][0])
         for handle, key in zip(handles, keys):
             handle.set_label(names.plain(key[0][1]) or "-")
-    legend_above(figure, handles, title)
+    if handles or notes:
+        legend_above(figure, [*handles, *notes], title)

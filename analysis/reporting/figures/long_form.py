@@ -21,10 +21,18 @@ class Number:
     low: float
     high: float
     trials: list
+    reached: bool = True  # by all trials, if it is the time to an event
+    failed: int = 0
+    not_run: int = 0
 
     @property
     def known(self):
         return not math.isnan(self.value)
+
+    @property
+    def lost(self):
+        """Without a value, though trials were to give it one."""
+        return not self.known and self.failed + self.not_run > 0
 
     def key(self, factors):
         return tuple((factor, self.levels.get(factor, "")) for factor in factors)
@@ -39,10 +47,11 @@ def numbers_of(table, request):
         measure, levels = places.get(column) or guessed(column, request)
         if in_rows:
             measure, levels = "", {UNNAMED: column} if len(table.numbers) > 1 else {}
-        values, trials = table.column(column), table.each(column)
-        found.append([(row.get("measure", measure), levels, value, low, high, each)
-                      for row, value, low, high, each
-                      in zip(table.rows, values, *table.bounds(column), trials)])
+        numbers = zip(table.column(column), *table.bounds(column), table.each(column),
+                      table.all_reached(column), table.counts(column, "failed"),
+                      table.counts(column, "not_run"))
+        found.append([(row.get("measure", measure), levels, *number)
+                      for row, number in zip(table.rows, numbers)])
     numbers = []
     for row, across in zip(table.rows, zip(*found)):
         own = {table.factor(label): row[label] for label in table.labels if label != "measure"}

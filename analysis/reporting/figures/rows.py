@@ -4,6 +4,7 @@ import itertools
 import math
 
 import fitting
+import gaps
 import legends
 import matplotlib.pyplot as plt
 import names
@@ -70,6 +71,7 @@ def keys(numbers, factors):
 
 def points(numbers, wording, name):
     """Means with their intervals, and every trial as a point behind them."""
+    notes = gaps.notes(numbers, wording)
     numbers = [number for number in numbers if number.known]
     across = apart(numbers, wording.columns)
     down = others(numbers[0].levels, across)
@@ -86,8 +88,9 @@ def points(numbers, wording, name):
             ax.axvline(0, color="black", linewidth=0.5, zorder=0)
         ax.set_xlabel(wording.measure(measure))
         ax.grid(axis="y", color="#E8E8E8", linewidth=0.5)
-    if len(series) > 1:
-        legends.explain(figure, handles, series, wording)
+    if len(series) == 1:  # rows say all
+        handles, series = [], []
+    legends.explain(figure, handles, series, wording, notes)
     return figure
 
 
@@ -101,8 +104,10 @@ def marks(ax, own, places, k, label):
         style.trials(ax, number.trials, [place] * len(number.trials), k)
     ax.hlines(places, [n.low for n in own], [n.high for n in own], color=style.colour(k),
               linewidth=0.9)
-    return ax.plot([n.value for n in own], places, linestyle="none", color=style.colour(k),
+    mark = ax.plot([n.value for n in own], places, linestyle="none", color=style.colour(k),
                    marker=style.MARKERS[k], markersize=3, label=label or None)[0]
+    style.opened(mark, [not n.reached for n in own])
+    return mark
 
 
 def bars(table, wording, axis, name_of):

@@ -3,6 +3,7 @@
 import csv
 import itertools
 import math
+import re
 import tomllib
 
 from recorded_run import NoRun
@@ -11,6 +12,7 @@ from recorded_run import NoRun
 NO_NUMBERS = {"claims"}
 # Of few trials, sensitivities and attributions have no intervals that would tell their numbers.
 INDICES = {"first_order", "total", "second_order", "mu_star", "sigma", "share", "alone", "last"}
+REACHED = re.compile(r"\bby (\d+) of (\d+)")
 
 
 class StudyTable:
@@ -45,6 +47,19 @@ class StudyTable:
                           for v, b in zip(values, self.column(name + ending))]
                          for ending in ("_low", "_high"))
         return values, values
+
+    def counts(self, name, ending):
+        """Of its trials, by number: those that failed, or have not run; none where not known."""
+        return [int(row.get(f"{name}_{ending}") or 0) for row in self.rows]
+
+    def all_reached(self, name):
+        """Whether what a number is a time to was reached by all its trials: a column, or of
+        differences a remark, counts those that did."""
+        return [all(int(some) >= int(of) for some, of in
+                    [*REACHED.findall(row.get(name + "_remarks") or ""),
+                     (row.get(name + "_reached") or row.get(name + "_n") or 0,
+                      row.get(name + "_n") or 0)])
+                for row in self.rows]
 
     def each(self, name):
         """The trials behind each number; none where they are not known."""

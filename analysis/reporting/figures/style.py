@@ -72,6 +72,16 @@ def curve(axes, x, y, k=0, **look):
     return axes.plot(x, y, **look)[0]
 
 
+def opened(line, some):
+    """Opens some marks of a curve."""
+    if not any(some):  # a layout would find room for a curve without points
+        return
+    x, y = line.get_xdata()[some], line.get_ydata()[some]
+    line.axes.plot(x, y, linestyle="none", color=line.get_color(), markerfacecolor="white",
+                   marker=MARKERS[COLOURS.index(line.get_color())], markersize=3.2, clip_on=False,
+                   zorder=line.get_zorder() + 0.1)
+
+
 def trials(axes, x, y, k):
     """What is behind the k-th mark or curve of an axes."""
     axes.plot(x, y, "o", color=colour(k), markersize=2.2, alpha=0.3, markeredgewidth=0)
