@@ -141,6 +141,21 @@ class FiguresDrawn(desk.Desk):
                     more=lambda figure: {text.get_text() for legend in figure.legends
                                          for text in legend.get_texts()} ^ says))
 
+    def test_one_curve_of_differences_says_what_is_compared(self):
+        import of_study
+        from stored_study import StudyTable
+        rows = [{"measure": "energy mean (Wh)", "period_s": period, "behaviour": "rigid_registration",
+                 "difference": value, "difference_n": "2"}
+                for period, value in (("5", "1"), ("15", "-2"), ("30", "2"))]
+        table = StudyTable("t", "", rows)
+        request = {"of": "comparison", "factor": "behaviour", "reference": "pairwise_referencing",
+                   "measures": ["energy_mean_wh"], "factors": {}}
+
+        def unsaid(figure):
+            said = {text.get_text() for text in texts_of(figure)}
+            return {"Behaviour", "rigid registration"} - said
+        self.assertTrue(self.assert_fine(lambda: of_study.figure_of(table, request), more=unsaid))
+
     def test_a_difference_that_not_all_trials_reached(self):
         from stored_study import StudyTable
         for remark, reached in (("Reached by 3 of 3, and by 2 of 3 of the others.", False),

@@ -93,7 +93,9 @@ def curves(numbers, wording, against, name, of_measure):
     x = [float(number.levels[against]) for number in known]
     if min(x) > 0 and max(x) > WIDE * min(x):
         logarithmic(figure.axes, 10)
-    named = [handles[j] for j in sorted(handles)] if len(handles) > 1 else []
+    named = [handles[j] for j in sorted(handles)]
+    if len(named) == 1 and not wording.compares(named[0][1]):  # axes say all
+        named = []
     legends.explain(figure, [line for line, _ in named], [key for _, key in named], wording,
                     gaps.notes(numbers, wording, against))
     return figure

@@ -131,6 +131,10 @@ class Wording:
             text = f"{text}: difference from {reference}"
         return names.sentence(names.with_unit(text, unit))
 
+    def compares(self, key):
+        """Whether a key says what is compared with the reference of a comparison."""
+        return self.is_difference and self.request["factor"] in dict(key)
+
     def total(self, measure):
         return names.sentence(f"total index of {self.measure_parts(measure)[0]}")
 
