@@ -8,12 +8,14 @@ import math
 import pathlib
 import subprocess
 import sys
+import types
 import unittest
 import warnings
 
 import desk
 import matplotlib
 import matplotlib.pyplot as plt
+import numpy
 from figures_test import FIGURES, REPEL
 
 matplotlib.use("Agg")
@@ -69,6 +71,20 @@ class FiguresDrawn(desk.Desk):
                     made |= {name} if self.assert_fine(draw) else set()
             usual = {"trajectories", "speeds", "energy", "quality"}
             self.assertLessEqual(FIGURES.get(run, usual), made)
+
+    def test_trajectories_say_that_colours_repeat(self):
+        import over_ground
+        for vehicles, says in ((7, False), (8, True)):
+            x = numpy.arange(vehicles) * 10.0 + numpy.zeros((3, 1))
+            run = types.SimpleNamespace(
+                waypoint=None, obstacles=[], by_vehicle={"x": x, "y": x + [[0], [5], [9]]}.get,
+                ends=lambda x=x: (x[-1], x[-1] + 9, x[-1] < 0))
+
+            def wrongly_said(figure, says=says):
+                said = any("colours repeat after 7" in t.get_text() for t in texts_of(figure))
+                return [f"{said}, rather than {says}"] if said != says else []
+            self.assertTrue(self.assert_fine(lambda run=run: over_ground.trajectories(run),
+                                             more=wrongly_said))
 
     def test_figures_of_studies_that_ship(self):
         import of_study

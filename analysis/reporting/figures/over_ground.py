@@ -78,7 +78,9 @@ def trajectories(run):
             marks += axes.plot(east[some], north[some], mark, color=style.COLOURS[1],
                                markersize=size, fillstyle="none", markeredgewidth=0.2 * size,
                                label=label, zorder=3)
-    legends.legend_above(figure, marks)
+    few = len(style.COLOURS)
+    title = f"colours repeat after {few} vehicles" if x.shape[1] > few else None
+    legends.legend_above(figure, marks, title)
     return figure
 
 
