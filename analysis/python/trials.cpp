@@ -6,6 +6,7 @@
 #include "shoal/analysis/reporting/known_current.hpp"
 #include "shoal/analysis/reporting/run_report.hpp"
 #include "shoal/core/interruption.hpp"
+#include "shoal/scenarios/inheritance.hpp"
 #include "shoal/scenarios/netcdf_guard.hpp"
 #include "shoal/scenarios/toml_file.hpp"
 #include "watch.hpp"
@@ -21,7 +22,9 @@ scenarios::Scenario read(py::object scenario, const py::dict& changes) {
   } else {
     root = scenarios::read_toml(scenarios::find_scenario(py::str(scenario)));
   }
-  overlay(root, to_setting(changes));
+  Setting given = to_setting(changes);
+  scenarios::require_no_scenario_left_out(root, given);
+  overlay(root, std::move(given));
   return scenarios::read_scenario(root);
 }
 
