@@ -8,6 +8,7 @@
 #include "shoal/analysis/experiments/build_info.hpp"
 #include "shoal/analysis/experiments/study/cell_scenarios.hpp"
 #include "shoal/core/error.hpp"
+#include "shoal/core/plugin.hpp"
 #include "shoal/core/registry.hpp"
 #include "shoal/core/text.hpp"
 #include "shoal/core/whole_file.hpp"
