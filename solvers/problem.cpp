@@ -11,7 +11,8 @@ Problem::Problem(const Problem& other)
       constraints(other.constraints),
       equalities(other.equalities),
       least_squares(other.least_squares),
-      best_known(other.best_known) {
+      best_known(other.best_known),
+      trace(other.trace) {
   adopt(*other.objective_);
 }
 
@@ -25,6 +26,7 @@ Problem& Problem::operator=(const Problem& other) {
   equalities = other.equalities;
   least_squares = other.least_squares;
   best_known = other.best_known;
+  trace = other.trace;
   adopt(*other.objective_);
   return *this;
 }

@@ -72,9 +72,9 @@ Proximity Ellipse::nearest_in_quadrant(const Eigen::Vector2d& place, double roun
 
 namespace {
 
-const Register<Obstacle, OblongOptions> registered{
+const Register<Obstacle, Oblong<Ellipse>> registered{
     "ellipse", "a turned ellipse (Barisic et al. 2011, eq. 50-62)",
-    [](const OblongOptions& options) { return options.made<Ellipse>(); }};
+    [](const Oblong<Ellipse>& options) { return options.made(); }};
 
 }  // namespace
 }  // namespace shoal::formations

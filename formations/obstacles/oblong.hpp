@@ -7,16 +7,17 @@
 
 namespace shoal::formations {
 
-/// The options of shapes with two half axes.
-struct OblongOptions {
+/// The options of a shape with two half axes.
+template <class Shape>
+struct Oblong {
   double x_m = 0.0;
   double y_m = 0.0;
   double half_length_m = 50.0;
   double half_width_m = 25.0;
   double heading_deg = 90.0;
 
-  static void declare(Options<OblongOptions>& o) {
-    using S = OblongOptions;
+  static void declare(Options<Oblong>& o) {
+    using S = Oblong;
     o.number("x_m", &S::x_m, "m", {}, "east, of the centre");
     o.number("y_m", &S::y_m, "m", {}, "north, of the centre");
     o.number("half_length_m", &S::half_length_m, "m", above(0),
@@ -26,7 +27,6 @@ struct OblongOptions {
              "compass heading of its length; 90: along x");
   }
 
-  template <class Shape>
   std::unique_ptr<Shape> made() const {
     return std::make_unique<Shape>(Eigen::Vector2d(x_m, y_m), half_length_m, half_width_m,
                                    from_compass_deg(heading_deg));

@@ -24,9 +24,9 @@ Proximity Rectangle::nearest_in_quadrant(const Eigen::Vector2d& place, double ro
 
 namespace {
 
-const Register<Obstacle, OblongOptions> registered{
+const Register<Obstacle, Oblong<Rectangle>> registered{
     "rectangle", "a turned rectangle (Barisic et al. 2011, eq. 48-49)",
-    [](const OblongOptions& options) { return options.made<Rectangle>(); }};
+    [](const Oblong<Rectangle>& options) { return options.made(); }};
 
 }  // namespace
 }  // namespace shoal::formations

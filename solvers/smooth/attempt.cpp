@@ -37,6 +37,11 @@ Attempt::Attempt(const Problem& problem, const Limits& limits)
     double cost = 0.0;
     evaluate(nullptr, cost);
   }
+  const VectorFunction* residuals =
+      problem.least_squares ? problem.least_squares->residuals.get() : nullptr;
+  for (int b = 0; residuals && !all_free_ && b < residuals->blocks(); ++b) {
+    if (unknowns_of_residuals(b).empty()) fixed_blocks_.push_back(b);
+  }
 }
 
 const char* Attempt::flaw() const {
@@ -204,6 +209,20 @@ Attempt::Outcome Attempt::begin_residuals() {
   return Outcome::fine;
 }
 
+/// Not finite where the loss or its derivatives are not: Ceres would end the process.
+double Attempt::cost_of(int block, const double* residuals) const {
+  const LeastSquares& structure = *problem_.least_squares;
+  double squared = 0.0;
+  for (int r = 0; r < structure.residuals->block_size(); ++r) {
+    squared += residuals[r] * residuals[r];
+  }
+  const LossValue loss = structure.loss_at(squared);
+  if (!std::isfinite(loss.value + loss.slope + loss.curvature)) {
+    return std::numeric_limits<double>::infinity();
+  }
+  return structure.weight(block) * loss.value;
+}
+
 Attempt::Outcome Attempt::residuals(int block, const double* y, double* values, double* jacobian) {
   if (stopped_) return Outcome::stop;
   return guarded([&] {
@@ -229,12 +248,24 @@ Attempt::Outcome Attempt::residuals(int block, const double* y, double* values, 
       }
     }
     if (!finite || !std::isfinite(squared)) return false;
+    const auto take = [&](const double* seen) {
+      const double cost = cost_of(next_block_, seen);
+      cost_of_blocks_ += cost;
+      ++next_block_;
+      return std::isfinite(cost);
+    };
+    const auto take_fixed = [&] {
+      double fixed[VectorFunction::max_block_size];
+      while (std::ranges::binary_search(fixed_blocks_, next_block_)) {
+        structure.residuals->evaluate(next_block_, x, fixed, nullptr, nullptr);
+        if (!take(fixed)) return false;
+      }
+      return true;
+    };
+    if (!take_fixed()) return false;
     if (block == next_block_) {  // seen for the first time at this point
-      const LossValue loss = structure.loss_at(squared);
-      // A loss that is not finite would make Ceres end the process.
-      if (!std::isfinite(loss.value + loss.slope + loss.curvature)) return false;
-      cost_of_blocks_ += structure.weight(block) * loss.value;
-      if (++next_block_ == structure.residuals->blocks()) remember(x, cost_of_blocks_);
+      if (!take(values) || !take_fixed()) return false;
+      if (next_block_ == structure.residuals->blocks()) remember(x, cost_of_blocks_);
     }
     return true;
   });

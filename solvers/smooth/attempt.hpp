@@ -69,8 +69,8 @@ class Attempt {
   /// The free unknowns that a block of the residuals depends on, rising.
   std::vector<int> unknowns_of_residuals(int block) const;
 
-  /// One block of the residuals at y, with its Jacobian (row-major) by those unknowns where that is
-  /// not null.
+  /// One block of the residuals, which has free unknowns, at y, with its Jacobian (row-major) by
+  /// those unknowns where that is not null.
   Outcome residuals(int block, const double* y, double* values, double* jacobian);
 
   bool must_stop() const { return stopped_; }
@@ -102,6 +102,7 @@ class Attempt {
 
   const char* flaw() const;
   Block constraint(int k) const;
+  double cost_of(int block, const double* residuals) const;
   std::vector<int> free_among(std::span<const int> unknowns) const;
   Problem::Vector free_part(const Problem::Vector& all) const;
   int free(int k) const { return free_[static_cast<std::size_t>(k)]; }
@@ -139,7 +140,8 @@ class Attempt {
   double largest_gradient_squared_ = 0.0;
   double cost_of_blocks_ = 0.0;
   int next_block_ = 0;
-  int short_steps_ = 0;  // in a row
+  std::vector<int> fixed_blocks_;  ///< of the residuals: those of unknowns that are all fixed
+  int short_steps_ = 0;            // in a row
   std::int64_t evaluations_ = 0;
   std::exception_ptr failure_;
   bool stopped_ = false;

@@ -189,15 +189,17 @@ class TrustRegion final : public Solver {
     const bool sparse = blocks > 0 && !structure.residuals->unknowns_of(0).empty();
     for (int k = 0; sparse && k < attempt.unknowns(); ++k) posed.AddParameterBlock(&y[k], 1);
     for (int b = 0; b < blocks; ++b) {
-      auto* loss = new WeightedLoss(structure, structure.weight(b));
+      const auto new_loss = [&] { return new WeightedLoss(structure, structure.weight(b)); };
       if (!sparse) {
-        posed.AddResidualBlock(new Block(attempt, b, size), loss, y.data());
+        posed.AddResidualBlock(new Block(attempt, b, size), new_loss(), y.data());
         continue;
       }
       std::vector<double*> own;
       for (const int k : attempt.unknowns_of_residuals(b)) own.push_back(&y[k]);
+      if (own.empty()) continue;  // all fixed: the attempt knows its cost
       posed.AddResidualBlock(
-          new SparseBlock(attempt, b, size, y.data(), static_cast<int>(own.size())), loss, own);
+          new SparseBlock(attempt, b, size, y.data(), static_cast<int>(own.size())), new_loss(),
+          own);
     }
     if (attempt.bounded()) {
       const Problem::Vector lower = attempt.lower(), upper = attempt.upper();

@@ -136,9 +136,11 @@ TEST(Options, ReadNumbersUnderNamesOfOnesOwn) {
   EXPECT_EQ(reading(written).constants, read_back.constants);
 
   EXPECT_EQ(complaint("constants", value(3.0)),
-            "constants is a number; it takes a table of numbers");
-  EXPECT_EQ(complaint("constants.c", text("x")), "constants.c is a string; it takes a number");
-  EXPECT_EQ(complaint("constants.c", value(NAN)), "constants.c is nan; it takes any finite number");
+            "dir/s.toml:4: constants is a number; it takes a table of numbers");
+  EXPECT_EQ(complaint("constants.c", text("x")),
+            "dir/s.toml:4: constants.c is a string (\"x\"); it takes a number");
+  EXPECT_EQ(complaint("constants.c", value(NAN)),
+            "dir/s.toml:4: constants.c is nan; it takes any finite number");
 
   const OptionPlace place = locate(schema_of<Everything>(), "constants.c");
   EXPECT_EQ(place.key, "constants.c");
@@ -293,7 +295,7 @@ TEST(Options, WriteWhatTheyRead) {
 
 TEST(Options, DescribeThemselves) {
   const Schema& schema = schema_of<Everything>();
-  EXPECT_EQ(schema.options.size(), 14u);
+  EXPECT_EQ(schema.options.size(), 15u);
   EXPECT_EQ(schema.find("speed_m_s")->unit, "m/s");
   EXPECT_EQ(schema.find("mode")->type, "one of \"fast\", \"slow\"");
   EXPECT_EQ(schema.find("nested")->table, &schema_of<Nested>());
