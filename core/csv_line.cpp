@@ -22,7 +22,7 @@ std::string without_formula(const std::string& text) {
   return (is_formula || is_cut) && !is_of_numbers(text) ? "'" + text : text;
 }
 
-std::string quoted(const std::string& text) {
+std::string quoted_field(const std::string& text) {
   if (text.find_first_of(",\"\n\r") == std::string::npos) return text;
   std::string inside;
   for (const char c : text) inside += c == '"' ? std::string("\"\"") : std::string(1, c);
@@ -34,7 +34,7 @@ std::string quoted(const std::string& text) {
 std::string csv_line(const std::vector<std::string>& fields) {
   std::string joined;
   for (const std::string& field : fields)
-    joined += (&field == &fields.front() ? "" : ",") + quoted(without_formula(field));
+    joined += (&field == &fields.front() ? "" : ",") + quoted_field(without_formula(field));
   return joined + "\n";
 }
 

@@ -120,13 +120,13 @@ void require_no_scenario_left_out(const Setting& settings, const Setting& change
   const Setting* before = settings.find(inherits_key);
   const Setting* after = changes.find(inherits_key);
   if (!before || !after) return;
-  const std::vector<std::string> sets = library_sets();
+  const std::vector<std::string> scenarios = library_scenarios();
   std::vector<std::string> kept;
   for (const Setting& name : inherited_names(*after))
     kept.push_back(std::get<std::string>(name.value));
   for (const Setting& name : inherited_names(*before)) {
     const auto& text = std::get<std::string>(name.value);
-    if (std::ranges::find(sets, text) != sets.end()) continue;
+    if (std::ranges::find(scenarios, text) == scenarios.end()) continue;
     if (std::ranges::find(kept, text) != kept.end()) continue;
     throw InputError(after->origin, std::string(inherits_key) + " would leave out " + text +
                                         ", from which the scenario takes what it does not say; "

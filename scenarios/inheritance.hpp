@@ -50,8 +50,9 @@ bool names_a_file(const std::string& inherited);
 /// What a set that ships says of itself: the comment on its first line, "" if there is none.
 std::string set_summary(const std::string& name);
 
-/// Throws InputError, where `changes` names what to inherit, if that leaves out a scenario or file
-/// that the settings inherit from: all that these say would be gone. Sets are exchanged.
+/// Throws InputError, where `changes` names what to inherit, if that leaves out a scenario of the
+/// library that the settings inherit from: all that it says would be gone. Sets and files, which
+/// may be sets, are exchanged.
 void require_no_scenario_left_out(const Setting& settings, const Setting& changes);
 
 /// The names in `inherits`. Throws InputError for other values.

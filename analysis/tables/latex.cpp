@@ -203,7 +203,7 @@ std::string notes(const std::vector<Note>& notes) {
 
 /// About how wide a column is set (pt), of ten-point type.
 double width_of(const Table& table, const Layout& layout, std::size_t column) {
-  constexpr double character = 5.0, separation = 12.0, signs = 18.0;
+  constexpr double character = 5.0, separation = 12.0, signs = 8.0;
   const LaidColumn& laid = layout.columns[column];
   double numbers = 0.0;
   for (const Extent& extent : laid.extents) {
@@ -224,7 +224,12 @@ std::vector<std::vector<std::size_t>> parts_of(const Table& table, const Layout&
   std::vector<std::size_t> labels;
   double of_labels = 0.0;
   std::size_t c = 0;
-  for (; c < layout.columns.size() && !layout.columns[c].numeric(); ++c) {
+  // Columns without a header above them, where others have one; else texts, and always the first.
+  const auto is_label = [&](std::size_t k) {
+    if (!layout.spans.empty()) return k < layout.spans.front().first;
+    return k == 0 || !layout.columns[k].numeric();
+  };
+  for (; c < layout.columns.size() && is_label(c); ++c) {
     labels.push_back(c);
     of_labels += width_of(table, layout, c);
   }

@@ -23,7 +23,7 @@ constexpr double margin_m = 60.0;
 constexpr std::size_t most_candidates = 8;
 constexpr std::size_t subsets_unchecked = 64;
 // Points x rotations x slots.
-constexpr double most_work = 1e9;
+constexpr double most_placements = 1e9;
 constexpr int longest_pause = 32;
 
 /// What is remembered of a caller.
@@ -97,9 +97,10 @@ class SampledMatcher final : public Matcher {
   std::optional<std::string> refuses(const MatchingProblem& problem) const override {
     const double work = static_cast<double>(problem.points.size()) *
                         static_cast<double>(problem.slots.size()) * turns_.count();
-    if (work <= most_work) return std::nullopt;
-    return "takes at most " + shortest(most_work) + " points x rotations x slots, and here are " +
-           shortest(work) + "; give fewer points or slots, or a greater delta_theta_deg";
+    if (work <= most_placements) return std::nullopt;
+    return "takes at most " + shortest(most_placements) +
+           " points x rotations x slots, and here are " + shortest(work) +
+           "; give fewer points or slots, or a greater delta_theta_deg";
   }
 
   using Matcher::solve;
