@@ -9,6 +9,7 @@ namespace shoal::analysis {
 namespace {
 
 namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
 
 void write_text(const fs::path& file, const std::string& text) {
   write_whole_file(file, text);
@@ -44,7 +45,6 @@ void require_writable_file(const fs::path& file) {
 }
 
 std::string summary_json(const Trial& trial, const std::string& name) {
-  using Json = nlohmann::ordered_json;
   Json summary;
   summary["scenario"] = name;
   summary["behaviour"] = trial.scenario.behaviour.kind();

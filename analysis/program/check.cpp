@@ -4,6 +4,7 @@
 #include <filesystem>
 
 #include "commands.hpp"
+#include "named_files.hpp"
 #include "shoal/analysis/experiments/results/study_tables.hpp"
 #include "shoal/analysis/experiments/study/cell_scenarios.hpp"
 #include "shoal/analysis/experiments/trial.hpp"
@@ -64,7 +65,9 @@ void check_study(const fs::path& file) {
 }
 
 void check_toml(const fs::path& file) {
-  const bool study = analysis::looks_like_a_study(scenarios::read_toml(file));
+  const Setting root = scenarios::read_toml(file);
+  require_no_claims(root, file);
+  const bool study = analysis::looks_like_a_study(root);
   study ? check_study(file) : check_scenario(file);
 }
 

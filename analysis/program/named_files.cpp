@@ -33,7 +33,8 @@ bool is_scenario(const Setting& root) {
          });
 }
 
-/// A file of statements, which a study names.
+}  // namespace
+
 void require_no_claims(const Setting& root, const fs::path& file) {
   if (!root.find("claim") || root.find("scenario")) return;
   throw InputError({file.string(), 0}, "this is a file of claims; name it in a study (claims = \"" +
@@ -41,8 +42,6 @@ void require_no_claims(const Setting& root, const fs::path& file) {
                                            "\"), which shoal sweep runs and shoal claims "
                                            "answers");
 }
-
-}  // namespace
 
 fs::path scenario_file(const std::string& name_or_path) {
   if (ships(analysis::library_studies(), name_or_path)) {

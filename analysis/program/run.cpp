@@ -1,6 +1,8 @@
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <filesystem>
+#include <string_view>
 #include <system_error>
 #include <vector>
 
@@ -101,8 +103,16 @@ void run(const RunArguments& arguments) {
   const analysis::Trial trial = analysis::run_trial(scenario, settings);
   analysis::write_trial(trial, name, out);
   print_summary(trial, name);
-  if (arguments.report) {
+  // A report is made of what was written, which a pipe or a device does not give back.
+  const bool report =
+      arguments.report && std::ranges::none_of(analysis::run_files, [&](const char* written) {
+        return written != std::string_view("report.html") &&
+               std::filesystem::is_other(out / written);
+      });
+  if (report) {
     for (const std::string& note : analysis::write_run_report(out)) fmt::print("{}\n", note);
+  } else if (arguments.report) {
+    fmt::print("no report: {} holds a pipe or a device, which cannot be read back\n", out.string());
   }
   if (!problems.empty()) {
     const analysis::Corpus corpus = recorder.corpus(scenario, name, trial.world->plan());
@@ -112,7 +122,7 @@ void run(const RunArguments& arguments) {
                kept, kept < all ? fmt::format(" of {}", all) : "");
   }
   fmt::print("written: {}/{{scenario.toml,{}summary.json{}}}\n", out.string(),
-             trial.record ? "run.nc,series.nc," : "", arguments.report ? ",report.html" : "");
+             trial.record ? "run.nc,series.nc," : "", report ? ",report.html" : "");
 }
 
 }  // namespace shoal::program
