@@ -100,6 +100,22 @@ TEST_F(Stored, ATableShowsNAndFailuresAndTheBestOnlyIfATestTellsIt) {
   EXPECT_FALSE(std::get<Estimate>(cell_table(request, all).rows[0][1]).best);
 }
 
+TEST_F(Stored, AHeaderOverSeveralMeasuresSaysWhatItsNumberIsOf) {
+  const TrialList list(read_study(scenarios::parse_toml(two_factors, "study.toml")));
+  const StudyResults none(list, {"energy_mean_wh", "quality_final_m"}, {});
+  TableRequest request;
+  request.name = "t";
+  request.rows = {"behaviour"};
+  request.columns = {"period"};
+  request.measures = {"energy_mean_wh", "quality_final_m"};
+  const Table of_periods = cell_table(request, none);
+  EXPECT_EQ(of_periods.columns[1].group, "period 10 s");
+  EXPECT_EQ(of_periods.columns[4].group, "period 20 s");
+  EXPECT_EQ(of_periods.columns[4].name, "20_quality_final_m");
+  std::swap(request.rows, request.columns);
+  EXPECT_EQ(cell_table(request, none).columns[1].group, rigid);
+}
+
 TEST_F(Stored, NotRunFailedUndefinedAndNeverReachedAreFourAnswers) {
   using enum Answer::Kind;
   const TrialList list(read_study(scenarios::parse_toml(two_factors, "study.toml")));

@@ -154,6 +154,12 @@ class CellTable {
     return cell;
   }
 
+  /// `period 15 s`, of a factor whose level is a number.
+  static std::string quantified(const Dimension& dimension, const std::string& number) {
+    const std::string name = heading_of({dimension.name, dimension.unit, ""});
+    return name + " " + number + (dimension.unit.empty() ? "" : " " + dimension.unit);
+  }
+
   void head(Table& table, const std::vector<Place>& across) const {
     const auto& dimensions = slices_.dimensions();
     for (std::size_t d = columns_; d < dimensions.size(); ++d) {
@@ -171,9 +177,8 @@ class CellTable {
         const std::string& label = dimensions[d].labels[place[d]];
         labels += (d ? ", " : "") + label;
         // A word speaks for itself; a number is one of something.
-        spelled += (d ? ", " : "") + (parsed_number(label) ? dimensions[d].name + " " : "") + label;
-        if (parsed_number(label) && !dimensions[d].unit.empty())
-          spelled += " " + dimensions[d].unit;
+        spelled += d ? ", " : "";
+        spelled += parsed_number(label) ? quantified(dimensions[d], label) : label;
         name += label + "_";
       }
       for (const Quantity& quantity : quantities_) {
