@@ -15,7 +15,7 @@
 namespace shoal::formations {
 namespace {
 
-std::string complaint(const std::string& text, const NamedNumbers& parameters = {}) {
+std::string wrong_with(const std::string& text, const NamedNumbers& parameters = {}) {
   try {
     Formula{text, parameters};
   } catch (const InputError& error) {
@@ -139,34 +139,34 @@ TEST(Formula, GivesTheSameBitsInEveryRun) {
 }
 
 TEST(Formula, SaysWhatIsWrongWithAText) {
-  EXPECT_EQ(complaint(""), "it is empty");
-  EXPECT_EQ(complaint("  "), "it is empty");
-  EXPECT_EQ(complaint("r + q"),
+  EXPECT_EQ(wrong_with(""), "it is empty");
+  EXPECT_EQ(wrong_with("  "), "it is empty");
+  EXPECT_EQ(wrong_with("r + q"),
             "there is no symbol \"q\"; known are r (distance, m), s (separation, m) and pi "
             "(character 5)");
-  EXPECT_EQ(complaint("lgo(r)"),
+  EXPECT_EQ(wrong_with("lgo(r)"),
             "there is no function \"lgo\"; did you mean \"log\"? (character 1)");
-  EXPECT_EQ(complaint("2*sin"), "sin is a function; write sin(...) (character 3)");
-  EXPECT_EQ(complaint("min(r)"), "min takes two values, separated by a comma (character 6)");
-  EXPECT_EQ(complaint("exp(r, s)"), "exp takes one value (character 6)");
-  EXPECT_EQ(complaint("min(r, s, 1)"), "min takes two values (character 9)");
-  EXPECT_EQ(complaint("s^^2"), "a value is expected, not '^' (character 3)");
-  EXPECT_EQ(complaint("r +"), "it ends where a value is expected (character 4)");
-  EXPECT_EQ(complaint("()"), "a value is expected before ')' (character 2)");
-  EXPECT_EQ(complaint("2r"), "an operator is missing before 'r' (character 2)");
-  EXPECT_EQ(complaint("1..2*r"), "an operator is missing before '.' (character 3)");
-  EXPECT_EQ(complaint("((r)"), "this '(' is never closed (character 1)");
-  EXPECT_EQ(complaint("(r))"), "there is a ')' too many (character 4)");
-  EXPECT_EQ(complaint("(r s)"), "an operator or ')' is missing before 's' (character 4)");
-  EXPECT_EQ(complaint("r + \xc3\xa9"),
+  EXPECT_EQ(wrong_with("2*sin"), "sin is a function; write sin(...) (character 3)");
+  EXPECT_EQ(wrong_with("min(r)"), "min takes two values, separated by a comma (character 6)");
+  EXPECT_EQ(wrong_with("exp(r, s)"), "exp takes one value (character 6)");
+  EXPECT_EQ(wrong_with("min(r, s, 1)"), "min takes two values (character 9)");
+  EXPECT_EQ(wrong_with("s^^2"), "a value is expected, not '^' (character 3)");
+  EXPECT_EQ(wrong_with("r +"), "it ends where a value is expected (character 4)");
+  EXPECT_EQ(wrong_with("()"), "a value is expected before ')' (character 2)");
+  EXPECT_EQ(wrong_with("2r"), "an operator is missing before 'r' (character 2)");
+  EXPECT_EQ(wrong_with("1..2*r"), "an operator is missing before '.' (character 3)");
+  EXPECT_EQ(wrong_with("((r)"), "this '(' is never closed (character 1)");
+  EXPECT_EQ(wrong_with("(r))"), "there is a ')' too many (character 4)");
+  EXPECT_EQ(wrong_with("(r s)"), "an operator or ')' is missing before 's' (character 4)");
+  EXPECT_EQ(wrong_with("r + \xc3\xa9"),
             "a value is expected, not a character that is not ASCII (character 5)");
-  EXPECT_EQ(complaint(std::string("r\0+", 3)),
+  EXPECT_EQ(wrong_with(std::string("r\0+", 3)),
             "an operator is missing before a control character (character 2)");
-  EXPECT_EQ(complaint("5"), "it does not depend on the distance r");
-  EXPECT_EQ(complaint("1/0 + r"), "the value of this part is not finite (inf) (character 2)");
-  EXPECT_EQ(complaint("r*9^9^9^9"), "the value of this part is not finite (inf) (character 6)");
-  EXPECT_EQ(complaint("r*1e999"), "this number is too large or too small (character 3)");
-  EXPECT_EQ(complaint("1/(r - r)").substr(0, 26), "it has no derivative: powe");
+  EXPECT_EQ(wrong_with("5"), "it does not depend on the distance r");
+  EXPECT_EQ(wrong_with("1/0 + r"), "the value of this part is not finite (inf) (character 2)");
+  EXPECT_EQ(wrong_with("r*9^9^9^9"), "the value of this part is not finite (inf) (character 6)");
+  EXPECT_EQ(wrong_with("r*1e999"), "this number is too large or too small (character 3)");
+  EXPECT_EQ(wrong_with("1/(r - r)").substr(0, 26), "it has no derivative: powe");
 }
 
 TEST(Formula, HasParametersThatStandForNumbers) {
@@ -180,23 +180,23 @@ TEST(Formula, HasParametersThatStandForNumbers) {
     EXPECT_EQ(a.slope, b.slope);
     EXPECT_EQ(a.curvature, b.curvature);
   }
-  EXPECT_EQ(complaint("depth*r", {{"depth", 2.0}}), "");
+  EXPECT_EQ(wrong_with("depth*r", {{"depth", 2.0}}), "");
 }
 
 TEST(Formula, SaysWhatIsWrongWithAParameter) {
-  EXPECT_EQ(complaint("k*r", {{"j", 1.0}}),
+  EXPECT_EQ(wrong_with("k*r", {{"j", 1.0}}),
             "there is no symbol \"k\"; known are r (distance, m), s (separation, m), j and pi "
             "(character 1)");
-  EXPECT_EQ(complaint("r", {{"k", 1.0}}), "it does not have the parameter k");
-  EXPECT_EQ(complaint("k", {{"k", 1.0}}), "it does not depend on the distance r");
+  EXPECT_EQ(wrong_with("r", {{"k", 1.0}}), "it does not have the parameter k");
+  EXPECT_EQ(wrong_with("k", {{"k", 1.0}}), "it does not depend on the distance r");
   for (const std::string name : {"r", "s", "pi", "exp"}) {
-    EXPECT_EQ(complaint("r", {{name, 1.0}}),
+    EXPECT_EQ(wrong_with("r", {{name, 1.0}}),
               "the parameter " + name + " needs another name: " + name + " has a meaning already");
   }
-  EXPECT_EQ(complaint("k*r", {{"k", 1.0}, {"k", 2.0}}),
+  EXPECT_EQ(wrong_with("k*r", {{"k", 1.0}, {"k", 2.0}}),
             "the parameter k needs another name: k has a meaning already");
   for (const std::string name : {"", "2k", "a b", "k'", "\xc3\xa9"}) {
-    EXPECT_EQ(complaint("r", {{name, 1.0}}),
+    EXPECT_EQ(wrong_with("r", {{name, 1.0}}),
               "a parameter is named by letters, digits and _, a letter first; not \"" + name + '"');
   }
 }
@@ -207,18 +207,19 @@ TEST(Formula, KeepsHostileTextsInBounds) {
     for (int i = 0; i < times; ++i) all += text;
     return all;
   };
-  EXPECT_EQ(complaint(repeated("r+", 400)), "it has 800 characters; at most 500 are read");
-  EXPECT_EQ(complaint(repeated("(", 200)).substr(0, 36), "it is nested deeper than 50 levels (");
-  EXPECT_EQ(complaint(repeated("-", 400) + "r").substr(0, 36),
+  EXPECT_EQ(wrong_with(repeated("r+", 400)), "it has 800 characters; at most 500 are read");
+  EXPECT_EQ(wrong_with(repeated("(", 200)).substr(0, 36), "it is nested deeper than 50 levels (");
+  EXPECT_EQ(wrong_with(repeated("-", 400) + "r").substr(0, 36),
             "it is nested deeper than 50 levels (");
-  EXPECT_EQ(complaint("((((3*r)^64)^64)^64)^64"), "its derivative has a factor that is not finite");
-  EXPECT_EQ(complaint(repeated("(r+s)*(r+1/r)*", 35) + "r"), "");
+  EXPECT_EQ(wrong_with("((((3*r)^64)^64)^64)^64"),
+            "its derivative has a factor that is not finite");
+  EXPECT_EQ(wrong_with(repeated("(r+s)*(r+1/r)*", 35) + "r"), "");
   std::string factors = "r";
   for (int i = 10; i < 90; ++i) factors += "*(r+" + std::to_string(i) + ")";
-  EXPECT_EQ(complaint(factors.substr(0, 498)),
+  EXPECT_EQ(wrong_with(factors.substr(0, 498)),
             "it is too long: it and its derivatives take more than 1000 steps");
-  complaint(repeated("r^", 45) + "r");  // whatever it says, it comes back
-  complaint(repeated("tan(", 45) + "r" + repeated(")", 45));
+  wrong_with(repeated("r^", 45) + "r");  // whatever it says, it comes back
+  wrong_with(repeated("tan(", 45) + "r" + repeated(")", 45));
 }
 
 TEST(Formula, FindsWhereItIsNotFinite) {
