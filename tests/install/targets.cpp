@@ -46,11 +46,14 @@ int main() {
       std::vector<Neighbour> neighbours;
       for (int other = 0; other < 20; ++other) {
         if (other == own || drawn() < 0.6) continue;
-        const Vector2d error(60.0 * (drawn() - 0.5), 60.0 * (drawn() - 0.5));
-        neighbours.push_back({.position = slots[static_cast<std::size_t>(other)] -
-                                          slots[static_cast<std::size_t>(own)] + error,
-                              .age_s = 60.0 * drawn(),
-                              .slot = other});
+        Neighbour neighbour{.position = slots[static_cast<std::size_t>(other)] -
+                                        slots[static_cast<std::size_t>(own)],
+                            .slot = other};
+        // One after another: arguments of a function are evaluated in an order of the compiler's.
+        neighbour.position.x() += 60.0 * (drawn() - 0.5);
+        neighbour.position.y() += 60.0 * (drawn() - 0.5);
+        neighbour.age_s = 60.0 * drawn();
+        neighbours.push_back(neighbour);
       }
       const Target target = behaviour->step(
           {.neighbours = neighbours, .own_slot = own, .waypoint = Vector2d(1000.0, -400.0)}, plan);
