@@ -65,7 +65,7 @@ TEST(TypedMembers, AreHeldToTheRangesOfTheirOptions) {
       InputError);
 }
 
-// Members with options of one type could only be told from one another by their names.
+// Members with options of one type would differ by their names only.
 TEST(TypedMembers, HaveATypeEachInTheirFamily) {
   for (const RegistryBase* family : families()) {
     for (const MemberInfo& member : family->members()) {
