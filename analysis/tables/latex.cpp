@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "shoal/analysis/tables/latex_number.hpp"
+#include "shoal/analysis/tables/latex_parts.hpp"
 #include "shoal/analysis/tables/latex_signs.hpp"
 #include "shoal/analysis/tables/latex_text.hpp"
 #include "shoal/analysis/tables/layout.hpp"
@@ -140,16 +141,6 @@ std::string tabular(const Table& table, const Layout& layout) {
          "      \\bottomrule\n    \\end{tabular}";
 }
 
-/// Characters of the longest text of a column: 0 of numbers.
-std::size_t longest_text(const Table& table, std::size_t column) {
-  std::size_t longest = 0;
-  for (const auto& row : table.rows) {
-    const auto* text = std::get_if<std::string>(&row[column]);
-    if (text) longest = std::max(longest, text->size());
-  }
-  return longest;
-}
-
 constexpr std::size_t longest_line = 40;  // of a text that is not broken into lines
 
 bool has_sentences(const Table& table) {
@@ -201,72 +192,6 @@ std::string notes(const std::vector<Note>& notes) {
   return printed;
 }
 
-/// About how wide a column is set (pt), of ten-point type.
-double width_of(const Table& table, const Layout& layout, std::size_t column) {
-  constexpr double character = 5.0, separation = 12.0, signs = 8.0;
-  const LaidColumn& laid = layout.columns[column];
-  double numbers = 0.0;
-  for (const Extent& extent : laid.extents) {
-    const auto characters = static_cast<double>(extent.before + extent.after);
-    numbers += characters * character + (numbers > 0.0 && characters > 0.0 ? signs : 0.0);
-  }
-  if (laid.reached) numbers += 10.0 * character;
-  const std::size_t text =
-      std::max(longest_text(table, column),
-               with_unit(table.columns[column].header, table.columns[column].unit).size());
-  return std::max(numbers, character * static_cast<double>(text)) + separation;
-}
-
-/// Columns that stand below one another where all in one row would be set too small. What a row is
-/// called begins each part; columns under one header stay together.
-std::vector<std::vector<std::size_t>> parts_of(const Table& table, const Layout& layout) {
-  constexpr double most = 345.0 / 0.7;  // pt: a line of an article's, and type of seven points
-  std::vector<std::size_t> labels;
-  double of_labels = 0.0;
-  std::size_t c = 0;
-  // Columns without a header above them, where others have one; else texts, and always the first.
-  const auto is_label = [&](std::size_t k) {
-    if (!layout.spans.empty()) return k < layout.spans.front().first;
-    return k == 0 || !layout.columns[k].numeric();
-  };
-  for (; c < layout.columns.size() && is_label(c); ++c) {
-    labels.push_back(c);
-    of_labels += width_of(table, layout, c);
-  }
-  std::vector<std::vector<std::size_t>> parts;
-  double width = most;
-  while (c < layout.columns.size()) {
-    std::size_t end = c + 1;
-    for (const Span& span : layout.spans) {
-      if (span.first == c) end = c + span.count;
-    }
-    double of_group = 0.0;
-    for (std::size_t k = c; k < end; ++k) of_group += width_of(table, layout, k);
-    const bool apart = of_labels + of_group > most;  // too wide even alone
-    for (; c < end; ++c) {
-      const double own = apart ? width_of(table, layout, c) : of_group;
-      if (parts.empty() || width + own > most) {
-        parts.push_back(labels);
-        width = of_labels;
-      }
-      width += own;
-      parts.back().push_back(c);
-      while (!apart && c + 1 < end) parts.back().push_back(++c);
-    }
-  }
-  return parts;
-}
-
-Table part_of(const Table& table, const std::vector<std::size_t>& columns) {
-  Table part;
-  for (const std::size_t c : columns) part.columns.push_back(table.columns[c]);
-  for (const auto& row : table.rows) {
-    part.rows.emplace_back();
-    for (const std::size_t c : columns) part.rows.back().push_back(row[c]);
-  }
-  return part;
-}
-
 /// The box tells how wide the notes may be.
 std::string box_of(const Table& table, const Layout& layout) {
   return "  \\sbox0{%\n" + tabular(table, layout) + "}%\n" +
@@ -289,12 +214,9 @@ std::string boxed(const Table& table, const Layout& layout, const std::string& l
   if (std::ranges::any_of(layout.columns, &LaidColumn::best)) {
     printed += "  \\def\\best#1#2{\\llap{\\boldmath$#1$}\\rlap{\\boldmath$#2$}}%\n";
   }
-  const std::vector<std::vector<std::size_t>> parts = parts_of(table, layout);
-  if (parts.size() < 2) return printed + box_of(table, layout) + "\\end{table}\n";
-  for (const std::vector<std::size_t>& columns : parts) {
-    Table part = part_of(table, columns);
-    if (&columns == &parts.back()) part.notes = table.notes;
-    if (&columns != &parts.front()) printed += "  \\par\\medskip\n";
+  const std::vector<Table> parts = latex_parts(table, layout);
+  for (const Table& part : parts) {
+    if (&part != &parts.front()) printed += "  \\par\\medskip\n";
     printed += box_of(part, Layout(part));
   }
   return printed + "\\end{table}\n";
