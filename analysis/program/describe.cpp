@@ -6,6 +6,7 @@
 #include "print_options.hpp"
 #include "shoal/analysis/experiments/measure.hpp"
 #include "shoal/analysis/experiments/study/file_parts.hpp"
+#include "shoal/analysis/experiments/study/renamed_keys.hpp"
 #include "shoal/analysis/experiments/study/study.hpp"
 #include "shoal/core/lower_case.hpp"
 #include "shoal/core/option_place.hpp"
@@ -169,6 +170,7 @@ bool describe_last_name(const std::string& name) {
 }  // namespace
 
 void describe(const std::string& name) {
+  analysis::require_not_renamed(name);
   const Schema& root = schema_of<scenarios::Scenario>();
   const std::string first = name.substr(0, name.find('.'));
   std::vector<std::string> known = root.names();

@@ -32,6 +32,9 @@ std::string content(const fs::path& file) {
 
 Json read_summary(const fs::path& file) {
   Json summary = Json::parse(content(file), nullptr, false);
+  if (summary.is_object() && summary.contains("metrics")) {
+    throw InputError(file.string() + ": metrics is now measures; write that, or run it again");
+  }
   if (!summary.is_object() || !summary.contains("measures")) {
     throw InputError(file.string() + " is none that shoal run wrote, or is damaged");
   }

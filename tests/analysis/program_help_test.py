@@ -117,6 +117,13 @@ class Help(Desk):
             for key in keys:
                 self.assertIn(f"{key}\n", text)
 
+    def test_describe_names_the_new_key_for_one_that_was_renamed(self):
+        for name in ("metrics", "table.metrics", "comparison.metrics"):
+            self.assert_complains(self.shoal("describe", name), 2,
+                                  ["metrics is now measures; write that"])
+        self.assert_complains(self.shoal("describe", "claim.metric"), 2,
+                              ["metric is now measure; write that"])
+
     def test_describe_lists_a_family_that_no_scenario_chooses(self):
         for family in ("design", "claim_test", "evaluation", "measure"):
             listed = self.say("list", family)

@@ -182,6 +182,13 @@ class Report(Desk):
         (out / "run.nc").write_bytes(b"no netCDF")
         self.assert_complains(self.shoal("report", "out"), 2, ["out/run.nc"])
 
+    def test_a_summary_of_an_earlier_version_says_what_has_changed(self):
+        self.run_trial("ok.toml")
+        summary = self.desk / "out/summary.json"
+        summary.write_text(summary.read_text().replace('"measures"', '"metrics"'))
+        self.assert_complains(self.shoal("report", "out"), 2,
+                              ["out/summary.json: metrics is now measures; write that"])
+
     def test_a_record_as_of_no_run_is_refused(self):
         self.run_trial("ok.toml")
         file = self.desk / "out/run.nc"
