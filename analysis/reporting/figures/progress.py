@@ -18,10 +18,12 @@ def progress(rows):
     figure, axes = panels.grid(len(kinds), across, panels.panel_height(max(across, 2)))
     handles = {}
     for ax, (family, measure) in zip(axes, kinds):
+        end = last_descent(row for row in rows if (row["family"], row["measure"]) == (family, measure))
         for k, solver in enumerate(solvers):
             own = [[float(row[name]) for name in ("effort", "left", "left_low", "left_high")]
                    for row in rows
-                   if (row["family"], row["measure"], row["solver"]) == (family, measure, solver)]
+                   if (row["family"], row["measure"], row["solver"]) == (family, measure, solver)
+                   and float(row["effort"]) <= end]
             if not own:
                 continue
             effort, left, low, high = zip(*own)
@@ -37,3 +39,8 @@ def progress(rows):
         ax.set_xlabel(names.sentence(names.plain(measure)))
     legends.legend_above(figure, [handles[solver] for solver in solvers if solver in handles])
     return figure
+
+
+def last_descent(rows):
+    """Twice the effort up to which some solver has more than rounding left in three of four problems."""
+    return 2 * max((float(row["effort"]) for row in rows if float(row["left_high"]) > LEAST), default=1.0)

@@ -49,9 +49,10 @@ const points = {
     const all = rows.flatMap(row => [...row.each, row.low ?? row.value, row.high ?? row.value]);
     const least = all.reduce((a, b) => Math.min(a, b)), most = all.reduce((a, b) => Math.max(a, b));
     const wide = most - least || Math.abs(most) || 1;
-    const place = x => 2 + 96 * (x - least) / wide;  // percent of the strip
+    const from = most > least ? least : least - wide / 2;  // what is all the same is in the middle
+    const place = x => 2 + 96 * (x - from) / wide;  // percent of the strip
     const scale = element("div", {class: "scale"});
-    for (const tick of this.ticks(least, least + wide)) {
+    for (const tick of this.ticks(from, from + wide)) {
       scale.append(element("span", {style: `left: ${place(tick)}%`}, numberText(tick)));
     }
     return element("figure", {class: "points"},
