@@ -6,6 +6,7 @@
 #include <random>
 
 #include "shoal/solvers/least_squares.hpp"
+#include "shoal/solvers/smooth/attempt.hpp"
 #include "shoal/solvers/solver.hpp"
 #include "tests/support/allocation_count.hpp"
 #include "tests/support/test_name.hpp"
@@ -197,6 +198,31 @@ TEST(Sparsity, ChangesNeitherTheCostNorItsDerivatives) {
     EXPECT_EQ(sparse.evaluate(x.data(), gradient.data()), cost);
     EXPECT_LT((gradient - other_gradient).norm(), 1e-12 * gradient.norm());
   }
+}
+
+TEST(Sparsity, OfTheHessianIsWhatBackendsSee) {
+  std::shared_ptr<const Layout> residuals;
+  Problem problem = layout(residuals);
+  problem.lower = problem.start.array() - 30.0;
+  problem.upper = problem.start.array() + 30.0;
+  (*problem.lower)[3] = (*problem.upper)[3] = problem.start[3];  // one unknown is fixed
+  Attempt attempt(problem, {});
+  const int n = attempt.unknowns();
+  ASSERT_EQ(n, 99);
+  Eigen::MatrixXd hessian(n, n);
+  Eigen::VectorXd gradient(n), at = attempt.start();
+  double cost = 0.0;
+  ASSERT_EQ(attempt.evaluate(at.data(), cost, gradient.data(), hessian.data()),
+            Attempt::Outcome::fine);
+  std::size_t not_zero = 0;
+  for (int i = 0; i < n; ++i) {
+    for (int j = 0; j <= i; ++j) not_zero += hessian(i, j) != 0.0 ? 1 : 0;
+  }
+  const auto pattern = attempt.hessian_pattern();
+  EXPECT_EQ(pattern.size(), not_zero);
+  EXPECT_LT(pattern.size(), 1500u) << "of 4950: a vehicle has eight neighbours at most";
+  for (const auto& [i, j] : pattern) EXPECT_NE(hessian(i, j), 0.0) << i << ", " << j;
+  EXPECT_EQ(attempt.unknowns_of_residuals(residuals->pairs() + 1), std::vector<int>{2});
 }
 
 TEST_P(ManyUnknowns, AreTheSameWhetherOrNotTheFunctionSaysOnWhichItDepends) {
