@@ -238,6 +238,11 @@ constexpr std::array<CalendarName, 9> calendar_names{
      {"366_day", Calendar::all_leap},
      {"360_day", Calendar::days_360}}};
 
+std::string padded(std::int64_t number, std::size_t digits) {
+  const std::string text = std::to_string(number);
+  return std::string(text.size() < digits ? digits - text.size() : 0, '0') + text;
+}
+
 }  // namespace
 
 Instant Instant::plus(double seconds) const {
@@ -303,15 +308,6 @@ Instant parse_instant(std::string_view text, Calendar calendar) {
   }
   return Instant{day_number(*date, calendar), 0.0}.plus(seconds);
 }
-
-namespace {
-
-std::string padded(std::int64_t number, std::size_t digits) {
-  const std::string text = std::to_string(number);
-  return std::string(text.size() < digits ? digits - text.size() : 0, '0') + text;
-}
-
-}  // namespace
 
 std::string iso_text(const Instant& instant, Calendar calendar) {
   // Rounded to the millisecond first, so that 59.9999 s is not written as 60.

@@ -2,7 +2,8 @@
 # changes only when they do. Tables and claims do not belong to it: they only read what is stored.
 file(GLOB_RECURSE sources RELATIVE ${SOURCE}
      ${SOURCE}/core/*.?pp ${SOURCE}/solvers/*.?pp ${SOURCE}/formations/*.?pp ${SOURCE}/scenarios/*.?pp
-     ${SOURCE}/analysis/experiments/measure.?pp ${SOURCE}/analysis/experiments/measures/*.?pp ${SOURCE}/analysis/experiments/trial.?pp)
+     ${SOURCE}/analysis/experiments/measure.?pp ${SOURCE}/analysis/experiments/measures/*.?pp
+     ${SOURCE}/analysis/experiments/trial.?pp)
 list(SORT sources)
 set(all "")
 foreach(source ${sources})

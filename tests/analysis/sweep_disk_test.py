@@ -91,7 +91,7 @@ class FullDisk(StudyDesk):
 
 
 class ReadOnly(StudyDesk):
-    """Without the right to write anywhere: root becomes the user nobody."""
+    """Without the right to write anywhere: root takes the rights of another user."""
 
     def shoal(self, *arguments, **settings):
         if os.geteuid() == 0:
