@@ -53,6 +53,13 @@ std::vector<double> efforts(const ContenderFamily& family, auto effort, bool who
   return steps;
 }
 
+/// Closed forms and enumerations: they solve, and there is nothing on the way.
+bool is_at_once(const Contender& contender) {
+  return std::ranges::any_of(contender.answers, [](const SolverAnswer& answer) {
+    return answer.solved() && answer.progress.empty();
+  });
+}
+
 double quartile(const std::vector<double>& sorted, double share) {
   const double place = share * static_cast<double>(sorted.size() - 1);
   const auto below = static_cast<std::size_t>(place);
@@ -66,6 +73,7 @@ void add_curves(const ContenderFamily& family, const char* measure, bool whole, 
   const Descents descents(family);
   const std::vector<double> steps = efforts(family, effort, whole);
   for (const Contender& contender : family.contenders) {
+    if (is_at_once(contender)) continue;
     for (const double step : steps) {
       std::vector<double> left;
       for (std::size_t k = 0; k < contender.answers.size(); ++k) {

@@ -76,7 +76,7 @@ Table performance_profiles(const SolverComparison& comparison);
 /// of the share of the descent that is left, (cost - lowest) / (first - lowest). The lowest cost is
 /// that of all solvers together, the first the highest that one of them began with. A solver that
 /// refuses a problem, or has not evaluated it yet, has all of the descent before it; where there is
-/// nothing to descend, none.
+/// nothing to descend, none. Closed forms and enumerations have no curve.
 Table progress_curves(const SolverComparison& comparison);
 
 }  // namespace shoal::analysis

@@ -274,6 +274,19 @@ TEST_F(Corpora, GiveProgressThatFallsToTheLowestCost) {
   EXPECT_EQ(last.at("evaluations grid"), 1.0) << "it refuses problems without bounds";
 }
 
+TEST_F(Corpora, GiveNoProgressOfAClosedForm) {
+  SolverComparison comparison({.solvers = {"newton", "procrustes", "sampled"},
+                               .reference = "",
+                               .options = {},
+                               .progress = true});
+  Corpus corpus = recorded(scenario("rigid_registration"));
+  corpus.append(recorded(scenario("assignment_registration")));
+  comparison.run(corpus);
+  const Table table = progress_curves(comparison);
+  EXPECT_FALSE(table.rows.empty());
+  for (const auto& row : table.rows) EXPECT_EQ(std::get<std::string>(row[2]), "newton");
+}
+
 TEST_F(Corpora, AreNotComparedWithOptionsThatNoNamedSolverHas) {
   const auto complaint = [](const char* key, Setting value) -> std::string {
     ComparisonSettings settings{

@@ -189,6 +189,13 @@ measures = ["energy_mean_wh"]
         self.assertEqual({str(file) for file in self.drawn("profiles_progress.csv")},
                          {"figures/profiles_progress.pdf", "figures/profiles_progress.svg"})
 
+    def test_closed_forms_have_profiles_and_no_progress(self):
+        self.shoal("run", "construction_square", "--set", "trial.duration_s=60",
+                   "--record-problems", "problems.jsonl", "--out", "out")
+        done = self.shoal("solve", "problems.jsonl", "--solvers", "procrustes", "--profiles", "p.csv")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertEqual({str(file) for file in self.drawn("p.csv")}, {"figures/p.pdf", "figures/p.svg"})
+
     def test_says_what_is_wrong(self):
         self.assert_complains(self.shoal("figures", "."), 2, ["has no scenario.toml"])
         self.assert_complains(self.shoal("figures"), 2, ["required: what", "--help"])

@@ -54,6 +54,8 @@ def figures_of_solvers(file):
             continue
         with open(each, newline="", encoding="utf-8") as lines:
             rows = list(csv.DictReader(lines))
+        if each != file and not rows:  # closed forms only
+            continue
         columns = set(rows[0]) if rows else set()
         if {"family", "measure", "solver", "factor", "share"} <= columns:
             yield each.stem, lambda rows=rows: profiles.profiles(rows)
