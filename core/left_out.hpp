@@ -9,7 +9,8 @@
 namespace shoal {
 
 /// Lists members whose library this build was made without, in the place of their own source
-/// (core/cmake/components.cmake): they are shown, and choosing one is an error that names the option.
+/// (core/cmake/components.cmake): they are shown, and choosing one is an error that names the
+/// option.
 template <class Family>
 struct RegisterLeftOut {
   RegisterLeftOut(const std::string& option, std::initializer_list<const char*> names) {
