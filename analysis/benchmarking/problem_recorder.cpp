@@ -9,26 +9,19 @@ void ProblemRecorder::OfVehicle::planned(const formations::Neighbourhood& seen,
   const std::size_t k = situations_++;
   if (k != next_) return;
   next_ += stride_;
-  if (kept_ == most_) {
-    keep_every_second();
+  if (kept_.size() == most_) {
+    kept_.keep_every_second();
+    stride_ *= 2;
     if (k % stride_ != 0) return;
     next_ = k + stride_;
   }
-  if (kept_ == noted_.size()) noted_.emplace_back();
-  Situation& situation = noted_[kept_++];
-  situation.own_slot = seen.own_slot;
-  situation.own = seen.own;
-  situation.neighbours.assign(seen.neighbours.begin(), seen.neighbours.end());
-}
-
-void ProblemRecorder::OfVehicle::keep_every_second() {
-  kept_ = (kept_ + 1) / 2;
-  for (std::size_t k = 1; k < kept_; ++k) std::swap(noted_[k], noted_[2 * k]);
-  stride_ *= 2;
+  kept_.add(seen);
 }
 
 std::function<formations::PlanObserver&(std::size_t)> ProblemRecorder::of_trial() {
-  return [this](std::size_t) -> formations::PlanObserver& { return vehicles_.emplace_back(most_); };
+  return [this](std::size_t) -> formations::PlanObserver& {
+    return vehicles_.emplace_back(most_, blocks_);
+  };
 }
 
 Corpus ProblemRecorder::corpus(const scenarios::Scenario& scenario, const std::string& name,
@@ -39,8 +32,8 @@ Corpus ProblemRecorder::corpus(const scenarios::Scenario& scenario, const std::s
        scenario.obstacles,
        scenario.waypoint ? std::optional(scenario.waypoint->place()) : std::nullopt});
   for (const OfVehicle& vehicle : vehicles_) {
-    const auto kept = vehicle.kept();
-    corpus.situations.insert(corpus.situations.end(), kept.begin(), kept.end());
+    const PackedSituations& kept = vehicle.kept();
+    for (std::size_t k = 0; k < kept.size(); ++k) corpus.situations.push_back(kept[k]);
   }
   return corpus;
 }

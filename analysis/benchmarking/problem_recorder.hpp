@@ -3,11 +3,11 @@
 #include <deque>
 #include <functional>
 #include <limits>
-#include <span>
 #include <string>
 #include <vector>
 
 #include "shoal/analysis/benchmarking/corpus.hpp"
+#include "shoal/analysis/benchmarking/packed_situations.hpp"
 #include "shoal/formations/planner.hpp"
 #include "shoal/scenarios/scenario.hpp"
 
@@ -37,22 +37,19 @@ class ProblemRecorder {
  private:
   class OfVehicle final : public formations::PlanObserver {
    public:
-    explicit OfVehicle(std::size_t most) : most_(most) {}
+    OfVehicle(std::size_t most, LargeBlocks& blocks) : most_(most), kept_(blocks) {}
 
     /// The situation is noted, and not the problem, which it states again.
-    Wants wants() const override { return {.problems = false}; }
+    Wants wants() const override { return {.problems = false, .times = false}; }
     void answered(const solvers::Answer&, double) override { solved_ = true; }
     void planned(const formations::Neighbourhood& seen, const formations::Target&) override;
 
-    std::span<const Situation> kept() const { return std::span(noted_).first(kept_); }
+    const PackedSituations& kept() const { return kept_; }
     std::size_t situations() const { return situations_; }
 
    private:
-    void keep_every_second();
-
     const std::size_t most_;
-    std::vector<Situation> noted_;  // beyond kept_: room that is used again
-    std::size_t kept_ = 0;
+    PackedSituations kept_;
     std::size_t stride_ = 1;
     std::size_t next_ = 0;  // of the situations, to be kept
     std::size_t situations_ = 0;
@@ -60,6 +57,7 @@ class ProblemRecorder {
   };
 
   const std::size_t most_;
+  LargeBlocks blocks_;
   std::deque<OfVehicle> vehicles_;  // stay where they are
 };
 

@@ -2,9 +2,13 @@
 
 #include <benchmark/benchmark.h>
 
+#include <algorithm>
+#include <chrono>
+#include <limits>
 #include <string>
 #include <vector>
 
+#include "shoal/analysis/benchmarking/problem_recorder.hpp"
 #include "shoal/analysis/experiments/trial.hpp"
 #include "shoal/scenarios/toml_file.hpp"
 
@@ -42,6 +46,36 @@ void redsea_as_run(benchmark::State& state) {
   trial(state, "redsea_square_as_run", {"behaviour.kind=rigid_registration"});
 }
 BENCHMARK(redsea_as_run)->Unit(benchmark::kSecond);
+
+// Trials with and without `shoal run --record-problems` in turn: by how many percent the fastest of
+// the one kind are slower than the fastest of the other. One iteration is both.
+void recorded(benchmark::State& state, const std::string& name,
+              const std::vector<std::string>& sets) {
+  constexpr std::size_t kept_by_run = 1000;
+  const auto wanted = scenario(name, sets);
+  double fastest[2] = {std::numeric_limits<double>::infinity(),
+                       std::numeric_limits<double>::infinity()};
+  for (auto _ : state) {
+    for (const bool record : {false, true}) {
+      using Clock = std::chrono::steady_clock;
+      const Clock::time_point begin = Clock::now();
+      shoal::analysis::ProblemRecorder recorder(kept_by_run);
+      shoal::analysis::TrialSettings settings{.threads = 1, .record = false};
+      if (record) settings.plan_observer = recorder.of_trial();
+      benchmark::DoNotOptimize(run_trial(wanted, settings).results);
+      const std::chrono::duration<double> took = Clock::now() - begin;
+      fastest[record] = std::min(fastest[record], took.count());
+    }
+  }
+  state.counters["recording_percent"] = 100.0 * (fastest[true] / fastest[false] - 1.0);
+}
+BENCHMARK_CAPTURE(recorded, redsea, "redsea_square", std::vector<std::string>{})
+    ->Unit(benchmark::kSecond);
+BENCHMARK_CAPTURE(recorded, redsea_without_quality, "redsea_square",
+                  std::vector<std::string>{"quality.every_s=0"})
+    ->Unit(benchmark::kSecond);
+BENCHMARK_CAPTURE(recorded, redsea_as_run, "redsea_square_as_run", std::vector<std::string>{})
+    ->Unit(benchmark::kSecond);
 
 // A formed lattice of n x n vehicles in a vortex: the cost per vehicle should not depend on n.
 void lattice(benchmark::State& state) {
