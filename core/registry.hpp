@@ -18,11 +18,11 @@ namespace shoal {
 struct MemberInfo {
   std::string name;     ///< may be dotted (`nlopt.lbfgs`): its options then sit in nested tables
   std::string summary;  ///< one line: what it does, and its source
-  const Schema& (*schema)();
+  std::function<const Schema&()> schema;
   /// Reads the options of this member and throws InputError if they are wrong.
-  void (*check)(const Setting& table, const std::string& path);
+  std::function<void(const Setting& table, const std::string& path)> check;
   /// The options as given, completed by the defaults.
-  Setting (*complete)(const Setting& table, const std::string& path);
+  std::function<Setting(const Setting& table, const std::string& path)> complete;
   const std::type_info* type = nullptr;  ///< of its options, for Choice
   std::string left_out_by;  ///< option of the build (`SHOAL_NLOPT`) without which it is not there
 };

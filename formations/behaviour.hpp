@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <span>
 
 #include "shoal/core/memory.hpp"
 #include "shoal/core/registry.hpp"
@@ -28,6 +29,16 @@ class Behaviour {
   virtual Target step(const Neighbourhood& seen, const Plan& plan,
                       const Solving& solving) const = 0;
   virtual std::unique_ptr<Memory> new_memory() const { return nullptr; }
+
+  /// Whether vehicles that plan at one instant are handed over at once, which pays where a call
+  /// costs more than an answer.
+  virtual bool plans_together() const { return false; }
+
+  /// What step() answers to each of them. `solving` and `targets` are as long as `seen`.
+  virtual void step_together(std::span<const Neighbourhood> seen, const Plan& plan,
+                             std::span<const Solving> solving, std::span<Target> targets) const {
+    for (std::size_t i = 0; i < seen.size(); ++i) targets[i] = step(seen[i], plan, solving[i]);
+  }
 
   /// Without memory, and unobserved.
   Target step(const Neighbourhood& seen, const Plan& plan) const {

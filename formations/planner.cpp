@@ -67,6 +67,35 @@ void Planner::receive(const Ping& ping, const Eigen::Vector2d& own_position) {
 }
 
 const Target& Planner::plan(double time_s, const OwnState& own) {
+  require_plannable(time_s, own);
+  const Neighbourhood seen = look(time_s, own);
+  take(behaviour_->step(seen, *plan_, solving()), seen, time_s);
+  return target_;
+}
+
+void Planner::plan_together(std::span<Planner* const> planners, double time_s,
+                            std::span<const OwnState> own) {
+  if (planners.empty()) return;
+  thread_local std::vector<Neighbourhood> seen;
+  thread_local std::vector<Solving> solving;
+  seen.clear();
+  solving.clear();
+  for (std::size_t i = 0; i < planners.size(); ++i) {
+    planners[i]->require_plannable(time_s, own[i]);
+  }
+  for (std::size_t i = 0; i < planners.size(); ++i) {
+    seen.push_back(planners[i]->look(time_s, own[i]));
+    solving.push_back(planners[i]->solving());
+  }
+  thread_local std::vector<Target> targets;
+  targets.resize(planners.size());
+  planners[0]->behaviour_->step_together(seen, *planners[0]->plan_, solving, targets);
+  for (std::size_t i = 0; i < planners.size(); ++i) {
+    planners[i]->take(targets[i], seen[i], time_s);
+  }
+}
+
+void Planner::require_plannable(double time_s, const OwnState& own) const {
   if (!std::isfinite(time_s) || !finite(own)) {
     throw InputError("planning needs a finite time and a finite own state; the last target holds");
   }
@@ -76,17 +105,21 @@ const Target& Planner::plan(double time_s, const OwnState& own) {
                      " s comes after a ping or a plan of t = " + shortest(latest_s) +
                      " s; time must not go back");
   }
-  const Neighbourhood seen{.neighbours = filter_.neighbours(time_s, own.position),
-                           .own_slot = own_slot_,
-                           .own = own,
-                           .obstacles = obstacles_,
-                           .waypoint = waypoint_.value_or(Eigen::Vector2d::Zero())};
-  target_ =
-      behaviour_->step(seen, *plan_, Solving(behaviour_memory_.get(), solve_observers_, wants_));
+}
+
+Neighbourhood Planner::look(double time_s, const OwnState& own) {
+  return {.neighbours = filter_.neighbours(time_s, own.position),
+          .own_slot = own_slot_,
+          .own = own,
+          .obstacles = obstacles_,
+          .waypoint = waypoint_.value_or(Eigen::Vector2d::Zero())};
+}
+
+void Planner::take(const Target& target, const Neighbourhood& seen, double time_s) {
+  target_ = target;
   for (PlanObserver* observer : observers_) observer->planned(seen, target_);
   last_plan_s_ = time_s;
-  target_position_ = own.position + target_.position;
-  return target_;
+  target_position_ = seen.own.position + target_.position;
 }
 
 }  // namespace shoal::formations

@@ -63,6 +63,11 @@ class Planner {
   /// plan.
   const Target& plan(double time_s, const OwnState& own);
 
+  /// plan() of several vehicles at one instant, each with its own state. They must share plan and
+  /// behaviour. What throws for one changes none.
+  static void plan_together(std::span<Planner* const> planners, double time_s,
+                            std::span<const OwnState> own);
+
   /// The command on the way to the last target, or to drift before there is one. To be renewed
   /// every Guidance::period_s(). A guidance that does not ask for the motion goes by the position
   /// alone. Throws InputError without a guidance, and for a state that is not finite.
@@ -97,6 +102,10 @@ class Planner {
  private:
   static bool finite(const OwnState& state);
   [[noreturn]] void refuse_command() const;
+  void require_plannable(double time_s, const OwnState& own) const;
+  Neighbourhood look(double time_s, const OwnState& own);
+  Solving solving() { return Solving(behaviour_memory_.get(), solve_observers_, wants_); }
+  void take(const Target& target, const Neighbourhood& seen, double time_s);
 
   std::shared_ptr<const Plan> plan_;
   std::shared_ptr<const Behaviour> behaviour_;

@@ -12,7 +12,7 @@ namespace shoal::scenarios {
 namespace {
 
 // Enough vehicles to share the work per call, few enough to stay in the cache for a whole stretch.
-constexpr std::size_t block_size = 64;
+constexpr std::size_t usual_block_size = 64;
 
 // The author's log rounds speeds to a centimetre per second before it asks whether they are zero.
 constexpr double moving_m_s = 0.005;
@@ -39,6 +39,7 @@ World::World(const Scenario& scenario, int threads)
   current_->require_duration(scenario.trial.duration_s);
   const std::vector<Start> starts = scenario.swarm.start.make()->place(*plan_, random_);
   behaviour_ = scenario.behaviour.make();
+  block_size_ = behaviour_->plans_together() ? n : usual_block_size;
   guidance_ = scenario.guidance.make();
   const auto waypoint =
       scenario.waypoint ? std::optional(scenario.waypoint->place()) : std::nullopt;
@@ -57,6 +58,8 @@ World::World(const Scenario& scenario, int threads)
   forget_tick_.assign(n, never);
   u_m_s_.resize(n);
   v_m_s_.resize(n);
+  x_before_m_.resize(n);
+  y_before_m_.resize(n);
   logbooks_.resize(n);
   lost_s_.assign(n, -1.0);
   arrived_s_.assign(n, -1.0);
@@ -115,7 +118,7 @@ void World::run(std::span<Observer* const> observers) {
   const tbb::global_control allowed(tbb::global_control::max_allowed_parallelism,
                                     static_cast<std::size_t>(threads_));
   tbb::task_arena arena(threads_);
-  const std::size_t blocks = (size() + block_size - 1) / block_size;
+  const std::size_t blocks = (size() + block_size_ - 1) / block_size_;
 
   while (true) {
     if (arrival_ends_trial() && all_arrived()) end_now("arrival");
@@ -132,7 +135,7 @@ void World::run(std::span<Observer* const> observers) {
     const std::int64_t until = next_event(looks);
     const auto run_blocks = [&](std::size_t begin, std::size_t end) {
       for (std::size_t b = begin; b < end; ++b) {
-        run_block(b * block_size, std::min(size(), (b + 1) * block_size), until);
+        run_block(b * block_size_, std::min(size(), (b + 1) * block_size_), until);
       }
     };
     if (threads_ == 1 || blocks == 1) {
@@ -272,7 +275,7 @@ void World::guide(std::size_t i) {
   if (commands_[i].outside_envelope) logbooks_[i].outside_envelope_s += guidance_->period_s();
 }
 
-void World::listen_and_plan(std::size_t i, std::int64_t tick) {
+bool World::listen(std::size_t i, std::int64_t tick) {
   const double now = static_cast<double>(tick) * scenario_.trial.tick_s;
   bool due = planner_ticks_ > 0 ? tick % planner_ticks_ == 0 : tick >= forget_tick_[i];
   if (!hydrophones_[i].underway.empty()) {
@@ -284,15 +287,50 @@ void World::listen_and_plan(std::size_t i, std::int64_t tick) {
     for (const Reception& r : received) planners_[i].receive(r.ping, r.own_position + error);
     if (planner_ticks_ == 0) due |= !received.empty();
   }
-  if (due) {
-    const formations::Target& target = planners_[i].plan(now, swarm_->own_state(i));
+  return due;
+}
+
+void World::set_alarms(std::size_t i, std::int64_t tick, bool planned) {
+  if (planned) {
     // A vehicle that hears no other any more must notice without a ping.
-    forget_tick_[i] =
-        target.reason == formations::Reason::no_neighbour ? never : tick + forget_ticks_;
+    const formations::Reason reason = planners_[i].last_target().reason;
+    forget_tick_[i] = reason == formations::Reason::no_neighbour ? never : tick + forget_ticks_;
   }
   wake_tick_[i] = !hydrophones_[i].underway.empty() ? tick + 1
                   : planner_ticks_ > 0              ? (tick / planner_ticks_ + 1) * planner_ticks_
                                                     : forget_tick_[i];
+}
+
+void World::listen_and_plan(std::size_t first, std::size_t last, std::int64_t tick) {
+  const double now = static_cast<double>(tick) * scenario_.trial.tick_s;
+  const auto awake = [&](std::size_t i) { return !silent(i) && tick >= wake_tick_[i]; };
+  if (!behaviour_->plans_together()) {
+    for (std::size_t i = first; i < last; ++i) {
+      if (!awake(i)) continue;
+      const bool due = listen(i, tick);
+      if (due) planners_[i].plan(now, swarm_->own_state(i));
+      set_alarms(i, tick, due);
+    }
+    return;
+  }
+  thread_local std::vector<formations::Planner*> due;
+  thread_local std::vector<formations::OwnState> own;
+  thread_local std::vector<std::size_t> which;
+  due.clear();
+  own.clear();
+  which.clear();
+  for (std::size_t i = first; i < last; ++i) {
+    if (!awake(i)) continue;
+    if (!listen(i, tick)) {
+      set_alarms(i, tick, false);
+      continue;
+    }
+    which.push_back(i);
+    due.push_back(&planners_[i]);
+    own.push_back(swarm_->own_state(i));
+  }
+  formations::Planner::plan_together(due, now, own);
+  for (const std::size_t i : which) set_alarms(i, tick, true);
 }
 
 void World::run_block(std::size_t first, std::size_t last, std::int64_t until) {
@@ -304,14 +342,16 @@ void World::run_block(std::size_t first, std::size_t last, std::int64_t until) {
   const std::span<const double> depth(swarm.depth_m.data() + first, count);
   const std::span<double> u(u_m_s_.data() + first, count);
   const std::span<double> v(v_m_s_.data() + first, count);
-  double x_before[block_size], y_before[block_size];
+  const std::span<double> x_before(x_before_m_.data() + first, count);
+  const std::span<double> y_before(y_before_m_.data() + first, count);
 
   for (std::int64_t tick = tick_; tick < until; ++tick) {
     const bool guided = tick % guidance_ticks_ == 0;
-    for (std::size_t i = first; i < last; ++i) {
-      if (silent(i)) continue;
-      if (tick >= wake_tick_[i]) listen_and_plan(i, tick);
-      if (guided) guide(i);
+    listen_and_plan(first, last, tick);
+    if (guided) {
+      for (std::size_t i = first; i < last; ++i) {
+        if (!silent(i)) guide(i);
+      }
     }
 
     current_->sample_at(static_cast<double>(tick) * tick_s, x, y, depth, u, v);
@@ -320,8 +360,8 @@ void World::run_block(std::size_t first, std::size_t last, std::int64_t until) {
         if (lost(i)) u_m_s_[i] = v_m_s_[i] = 0.0;
       }
     }
-    std::ranges::copy(x, x_before);
-    std::ranges::copy(y, y_before);
+    std::ranges::copy(x, x_before.begin());
+    std::ranges::copy(y, y_before.begin());
     swarm.advance(first, last, tick, commands_, u_m_s_, v_m_s_);
 
     for (std::size_t i = first; i < last; ++i) {

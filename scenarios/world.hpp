@@ -98,7 +98,10 @@ class World {
   void lose_vehicles();
   void send_pings();
   void run_block(std::size_t first, std::size_t last, std::int64_t until);
-  void listen_and_plan(std::size_t i, std::int64_t tick);
+  void listen_and_plan(std::size_t first, std::size_t last, std::int64_t tick);
+  /// Whether the vehicle then has to plan.
+  bool listen(std::size_t i, std::int64_t tick);
+  void set_alarms(std::size_t i, std::int64_t tick, bool planned);
   void guide(std::size_t i);
   /// Whether it has gone for good: lost, or its energy pack is empty.
   bool silent(std::size_t i) const { return lost(i) || stopped(i); }
@@ -113,6 +116,7 @@ class World {
 
   Scenario scenario_;
   int threads_;
+  std::size_t block_size_ = 0;
   RandomStreams random_;
   std::shared_ptr<const formations::Plan> plan_;
   std::unique_ptr<Current> current_;
@@ -130,6 +134,7 @@ class World {
   std::vector<std::int64_t> forget_tick_;  // when what was heard for the last plan is forgotten
   std::vector<std::int64_t> wake_tick_;    // when the vehicle next has to listen or to plan
   std::vector<double> u_m_s_, v_m_s_;
+  std::vector<double> x_before_m_, y_before_m_;  // a tick ago
   std::vector<Logbook> logbooks_;
   std::vector<double> lost_s_;  // when a vehicle was lost, or negative
   std::vector<double> arrived_s_;
