@@ -127,7 +127,16 @@ std::size_t RegistryBase::index_of(std::string_view name, const Origin& origin,
   return static_cast<std::size_t>(found - members_.data());
 }
 
+std::optional<std::size_t> RegistryBase::replace(MemberInfo info) {
+  const auto found = std::ranges::find(members_, info.name, &MemberInfo::name);
+  if (found == members_.end()) return std::nullopt;
+  *found = std::move(info);
+  ++generation_;
+  return static_cast<std::size_t>(found - members_.begin());
+}
+
 std::size_t RegistryBase::insert(MemberInfo info) {
+  ++generation_;
   const auto place = std::ranges::lower_bound(members_, info.name, {}, &MemberInfo::name);
   if (place != members_.end() && place->name == info.name) {
     throw std::logic_error("two members of the family \"" + family_ + "\" are called \"" +

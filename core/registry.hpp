@@ -4,6 +4,7 @@
 #include <concepts>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <typeinfo>
@@ -37,6 +38,9 @@ class RegistryBase {
   const std::string& family() const { return family_; }
   const std::string& meaning() const { return meaning_; }
 
+  /// Grows with each change of the members, for what is derived from them.
+  std::size_t generation() const { return generation_; }
+
   /// Sorted by name; the order of registration depends on the linker and must not show.
   const std::vector<MemberInfo>& members() const { return members_; }
   std::vector<std::string> names() const;
@@ -57,11 +61,14 @@ class RegistryBase {
  protected:
   /// Throws std::logic_error if the name is taken, or is a dotted prefix of another.
   std::size_t insert(MemberInfo info);
+  /// Its place, if there is one of that name.
+  std::optional<std::size_t> replace(MemberInfo info);
 
  private:
   std::string family_;
   std::string meaning_;
   std::vector<MemberInfo> members_;
+  std::size_t generation_ = 0;
 };
 
 /// While it lives, members of this thread that cannot be registered are noted instead of throwing:
@@ -104,6 +111,16 @@ class Registry : public RegistryBase {
   void add(MemberInfo info, Factory factory) {
     const auto place = static_cast<std::ptrdiff_t>(insert(std::move(info)));
     factories_.insert(factories_.begin() + place, std::move(factory));
+  }
+
+  /// The same for a member that is written while the program runs, and so perhaps once more: it
+  /// takes the place of the one before. Not while another thread may ask for members.
+  void put(MemberInfo info, Factory factory) {
+    if (const auto place = replace(info)) {
+      factories_[*place] = std::move(factory);
+    } else {
+      add(std::move(info), std::move(factory));
+    }
   }
 
   std::unique_ptr<Family> make(std::string_view name, const Setting& table,

@@ -1,5 +1,7 @@
 #include "shoal/analysis/experiments/build_info.hpp"
 
+#include <algorithm>
+
 #include "shoal/core/text.hpp"
 #include "source_id.inc"
 
@@ -37,8 +39,18 @@ const BuildInfo& build_info() {
   return known();
 }
 
-void add_to_program(const std::string& plugin) {
-  known().program += "+" + plugin;
+void make_part_of_program(const std::string& key, const std::string& plugin) {
+  static const std::string shoal_alone = known().program;
+  static std::vector<std::pair<std::string, std::string>> parts;
+  const auto same = [&](const auto& part) { return part.first == key; };
+  const auto found = std::ranges::find_if(parts, same);
+  if (found != parts.end()) {
+    found->second = plugin;
+  } else {
+    parts.emplace_back(key, plugin);
+  }
+  known().program = shoal_alone;
+  for (const auto& part : parts) known().program += "+" + part.second;
 }
 
 }  // namespace shoal::analysis

@@ -19,7 +19,8 @@ struct BuildInfo {
 
 const BuildInfo& build_info();
 
-/// Makes a plugin part of `program`, on which all trials depend.
-void add_to_program(const std::string& plugin);
+/// Makes a plugin part of `program`, on which all trials depend; in place of an earlier one that
+/// was given under the same key.
+void make_part_of_program(const std::string& key, const std::string& plugin);
 
 }  // namespace shoal::analysis

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <mutex>
 #include <numeric>
 #include <stdexcept>
 
@@ -63,6 +65,22 @@ std::vector<Quantity> gathered(std::vector<Quantity> (Measure::*list)() const) {
   return all;
 }
 
+/// What measures yield, gathered anew when there are others; earlier answers stay where they are.
+class Known {
+ public:
+  const std::vector<Quantity>& of(std::vector<Quantity> (Measure::*list)() const) {
+    const std::lock_guard lock(mutex_);
+    const std::size_t generation = Registry<Measure>::instance().generation();
+    const auto found = by_generation_.find(generation);
+    if (found != by_generation_.end()) return found->second;
+    return by_generation_.emplace(generation, gathered(list)).first->second;
+  }
+
+ private:
+  std::mutex mutex_;
+  std::map<std::size_t, std::vector<Quantity>> by_generation_;
+};
+
 const Quantity& named(const std::vector<Quantity>& known, const std::string& name,
                       const std::string& what, const Origin& origin) {
   std::vector<std::string> names;
@@ -100,13 +118,13 @@ void conclude(const Measure& measure, const scenarios::World& world, Results& re
 }
 
 const std::vector<Quantity>& known_values() {
-  static const std::vector<Quantity> known = gathered(&Measure::values);
-  return known;
+  static Known known;
+  return known.of(&Measure::values);
 }
 
 const std::vector<Quantity>& known_series() {
-  static const std::vector<Quantity> known = gathered(&Measure::series);
-  return known;
+  static Known known;
+  return known.of(&Measure::series);
 }
 
 const Quantity& known_value(const std::string& name, const Origin& origin) {

@@ -62,7 +62,7 @@ void load_plugin(const fs::path& given) {
     throw InputError("cannot load the plugin " + file.string() + ": " + why);
   }
   loaded().push_back({file, hash_of(*content)});
-  add_to_program(file.filename().string() + "-" + loaded().back().hash);
+  make_part_of_program(file.string(), file.filename().string() + "-" + loaded().back().hash);
   std::string all;
   for (const Plugin& plugin : loaded()) all += (all.empty() ? "" : ":") + plugin.file.string();
   ::setenv(variable, all.c_str(), 1);

@@ -49,5 +49,6 @@ void add_planners(py::module_& module);
 void add_potentials(py::module_& module);
 void add_problems(py::module_& module);
 void add_catalogue(py::module_& module);
+void add_classes(py::module_& module);
 
 }  // namespace shoal::python

@@ -27,14 +27,9 @@ PYBIND11_MODULE(_shoal, module) {
   solvers::silence_backends();
 
   analysis::load_plugins_of_environment();
-  module.attr("program") = analysis::build_info().program;
+  module.def("program", [] { return analysis::build_info().program; });
   module.def(
-      "load_plugin",
-      [module](const std::string& file) {
-        analysis::load_plugin(file);
-        module.attr("program") = analysis::build_info().program;
-      },
-      py::arg("file"));
+      "load_plugin", [](const std::string& file) { analysis::load_plugin(file); }, py::arg("file"));
 
   python::add_catalogue(module);
   python::add_trials(module);
@@ -42,4 +37,5 @@ PYBIND11_MODULE(_shoal, module) {
   python::add_planners(module);
   python::add_potentials(module);
   python::add_problems(module);
+  python::add_classes(module);
 }

@@ -6,6 +6,7 @@
 #include <span>
 
 #include "conversions.hpp"
+#include "python_class.hpp"
 #include "shoal/core/options_impl.hpp"
 #include "shoal/core/text.hpp"
 #include "shoal/formations/potential.hpp"
@@ -241,6 +242,7 @@ void add_potentials(py::module_& module) {
   module.def(
       "keep_function",
       [](const std::string& name, const std::string& source, const py::object& function) {
+        note_own_code();
         Functions::instance().keep(PythonFunction{name, source}.key(), function);
       },
       py::arg("name"), py::arg("source"), py::arg("function"));

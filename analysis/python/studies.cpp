@@ -2,6 +2,7 @@
 #include <filesystem>
 
 #include "conversions.hpp"
+#include "python_class.hpp"
 #include "shoal/analysis/experiments/results/study_tables.hpp"
 #include "shoal/analysis/experiments/study/cell_scenarios.hpp"
 #include "shoal/analysis/experiments/study/study_files.hpp"
@@ -40,8 +41,9 @@ py::dict counts(const analysis::SweepProgress& progress) {
 }
 
 /// The program beside the library that runs, for solvers that need processes of their own; "" if
-/// there is none.
+/// there is none, or if it would not know what this process was given.
 std::string program_beside() {
+  if (has_own_code()) return "";
   const fs::path prefix = scenarios::library_path().parent_path().parent_path().parent_path();
   const fs::path program = prefix / "bin" / "shoal";
   return fs::exists(program) ? program.string() : "";
@@ -63,6 +65,7 @@ py::dict sweep(const py::object& study, const std::string& folder, int jobs,
   };
   analysis::SweepProgress done;
   {
+    const NoNewMembers while_it_runs;
     const py::gil_scoped_release free;
     done = analysis::sweep(list, folder, settings);
   }
@@ -199,8 +202,14 @@ void add_studies(py::module_& module) {
       .def("store", &Sweep::store, py::arg("index"), py::arg("answer"))
       .def("progress", &Sweep::progress)
       .def("end", &Sweep::end);
-  module.def("answer", &analysis::trial_answer, py::arg("request"),
-             py::call_guard<py::gil_scoped_release>());
+  module.def(
+      "answer",
+      [](const std::string& request) {
+        const NoNewMembers while_it_runs;
+        const py::gil_scoped_release free;
+        return analysis::trial_answer(request);
+      },
+      py::arg("request"));
   module.def(
       "trials_csv", [](const std::string& folder) { return analysis::StudyExport(folder).csv(); },
       py::arg("folder"));

@@ -1,6 +1,7 @@
 #include <optional>
 
 #include "conversions.hpp"
+#include "python_class.hpp"
 #include "shoal/analysis/experiments/measures/formation_quality.hpp"
 #include "shoal/analysis/experiments/trial.hpp"
 #include "shoal/analysis/reporting/known_current.hpp"
@@ -34,6 +35,7 @@ std::string run(const py::object& scenario, const py::dict& changes, const std::
                 py::object progress) {
   const scenarios::Scenario read_in = read(scenario, changes);
   const std::unique_ptr<scenarios::Observer> watching = watch(read_in, std::move(progress));
+  const NoNewMembers while_it_runs;
   const py::gil_scoped_release free;
   const Interruption interruption(python_signals());  // between two looks of the watch
   const analysis::Trial trial = analysis::run_trial(

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <chrono>
 
+#include "python_class.hpp"
 #include "shoal/analysis/experiments/trial.hpp"
 
 namespace shoal::python {
@@ -29,7 +30,7 @@ class Watch final : public scenarios::Observer {
       : progress_(std::move(progress)),
         every_s_(analysis::watching_interval_s(scenario)),
         duration_s_(scenario.trial.duration_s),
-        hint_due_(has_scalar_function(scenarios::resolved_scenario(scenario))) {}
+        calls_for_each_number_(has_scalar_function(scenarios::resolved_scenario(scenario))) {}
 
   double every_s() const override { return every_s_; }
 
@@ -41,7 +42,7 @@ class Watch final : public scenarios::Observer {
     const py::gil_scoped_acquire held;
     if (PyErr_CheckSignals() != 0) throw py::error_already_set();
     if (!progress_.is_none()) report(world.time_s(), now);
-    if (hint_due_) hint(now);
+    if (hint_due_ && now - began_ >= patience) hint(world);
   }
 
  private:
@@ -55,19 +56,27 @@ class Watch final : public scenarios::Observer {
     progress_(reached);
   }
 
-  void hint(Clock::time_point now) {
-    constexpr std::chrono::seconds patience(5);
-    if (now - began_ < patience) return;
+  void hint(const scenarios::World& world) {
     hint_due_ = false;
-    const char* text =
-        "this run calls a Python function for each number; written for arrays, with "
-        "shoal.potential(law, batch=True), it runs some hundred times faster";
-    if (PyErr_WarnEx(PyExc_RuntimeWarning, text, 1) != 0) throw py::error_already_set();
+    const char* text = nullptr;
+    if (calls_for_each_number_) {
+      text =
+          "this run calls a Python function for each number; written for arrays, with "
+          "shoal.potential(law, batch=True), it runs some hundred times faster";
+    } else if (is_class("behaviour", world.scenario().behaviour.kind()) &&
+               !world.behaviour().plans_together()) {
+      text =
+          "this run calls target() of a Python class for each vehicle; with targets(), for all "
+          "that plan at an instant, it runs faster";
+    }
+    if (text && PyErr_WarnEx(PyExc_RuntimeWarning, text, 1) != 0) throw py::error_already_set();
   }
+
+  static constexpr std::chrono::seconds patience{5};
 
   py::object progress_;
   double every_s_, duration_s_;
-  bool hint_due_;
+  bool calls_for_each_number_, hint_due_ = true;
   Clock::time_point began_ = Clock::now(), last_ = began_;
 };
 

@@ -19,7 +19,8 @@ if(SHOAL_PYTHON)
 
   set(package ${PROJECT_BINARY_DIR}/python/shoal)
   set(package_source ${PROJECT_SOURCE_DIR}/analysis/python/shoal)
-  file(GLOB binding_sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/analysis/python/*.cpp)
+  file(GLOB binding_sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/analysis/python/*.cpp
+       ${PROJECT_SOURCE_DIR}/analysis/python/members/*.cpp)
   pybind11_add_module(shoal_python NO_EXTRAS ${binding_sources})
   # Visible, unlike what pybind11 sets: there is one registry of a family, not one here and one there.
   set_target_properties(shoal_python PROPERTIES OUTPUT_NAME _shoal CXX_VISIBILITY_PRESET default

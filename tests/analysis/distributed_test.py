@@ -29,11 +29,53 @@ values = [0, 1000000]
 """
 
 
+OWN = """import sys
+
+import numpy
+import shoal
+import shoal.distributed
+from distributed import Client
+
+
+@shoal.behaviour
+class Half:
+    def __init__(self, share: float = 0.5):
+        self.share = share
+
+    def targets(self, seen):
+        return self.share * numpy.nanmean(seen.positions, axis=1)
+
+
+@shoal.measure
+class Farthest:
+    values = {"farthest_m": ("m", "from the origin")}
+
+    def finish(self, world):
+        return {"farthest_m": numpy.linalg.norm(world.positions, axis=1).max()}
+
+
+def law(r, s):
+    return (r - s)**2 / s
+
+
+study = {
+    "scenario": "construction_hexagonal", "replications": 2,
+    "set": {"trial.duration_s": 120, "behaviour.attraction_repulsion.potential": shoal.potential(law, batch=True)},
+    "factor": [{"key": "behaviour.kind", "values": ["half", "attraction_repulsion"]},
+               {"key": "behaviour.half.share", "values": [0.1, 0.9]}]}
+here = shoal.sweep(study, "here", jobs=2)
+there = shoal.distributed.sweep(study, Client(sys.argv[1]), "there")
+assert here.to_csv() == there.to_csv(), (here, there)
+assert set(there.status) == {"done"} and there.farthest_m.nunique() == 6, there.farthest_m
+print("the same", len(there), "trials")
+"""
+
+
 class Cluster:
     """A scheduler and workers on loopback."""
 
-    def __init__(self, folder, workers):
-        self.folder = folder
+    def __init__(self, folder, workers, threads=1):
+        self.folder, self.threads = folder, threads
         self.processes = []
         self.address = f"tcp://127.0.0.1:{self._scheduler()}"
         self.workers = [self.start_worker() for _ in range(workers)]
@@ -57,7 +99,7 @@ class Cluster:
 
     def start_worker(self, **settings):
         return self._start(f"worker-{len(self.processes)}.log", "distributed.cli.dask_worker",
-                           self.address, "--nthreads", "1", "--nworkers", "1", "--no-nanny",
+                           self.address, "--nthreads", str(self.threads), "--nworkers", "1", "--no-nanny",
                            "--no-dashboard", "--local-directory", str(self.folder), **settings)
 
     def stop(self):
@@ -67,10 +109,10 @@ class Cluster:
 
 
 class Distributed(StudyDesk):
-    def cluster(self, workers):
+    def cluster(self, workers, threads=1):
         folder = self.desk / "cluster"
         folder.mkdir(exist_ok=True)
-        cluster = Cluster(folder, workers)
+        cluster = Cluster(folder, workers, threads)
         self.addCleanup(cluster.stop)
         client = Client(cluster.address, timeout=60)
         self.addCleanup(client.close)
@@ -124,6 +166,13 @@ class Distributed(StudyDesk):
         self.sweep(study="sea.toml", out="one")
         self.assertEqual(self.rows("trial_key, status, reason", "one"),
                          self.rows("trial_key, status, reason", "many"))
+
+    def test_classes_and_functions_of_ones_own_go_to_the_workers(self):
+        self.write("own.py", OWN)
+        cluster, _ = self.cluster(1, threads=2)
+        done = subprocess.run([sys.executable, "-W", "ignore", "own.py", cluster.address], cwd=self.desk, text=True,
+                              capture_output=True, timeout=120)
+        self.assertEqual((done.returncode, done.stdout), (0, "the same 8 trials\n"), done.stderr)
 
     def test_a_worker_of_another_shoal_is_refused(self):
         self.write("study.toml", SHORT)
@@ -206,7 +255,7 @@ def _pretend_to_be_another():
     from shoal import _shoal
 
     answer = _shoal.answer
-    _shoal.answer = lambda request: answer(request.replace(_shoal.program, "0.0.0-another"))
+    _shoal.answer = lambda request: answer(request.replace(_shoal.program(), "0.0.0-another"))
 
 
 def _die_of_trials():

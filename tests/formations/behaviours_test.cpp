@@ -5,6 +5,7 @@
 #include <array>
 #include <thread>
 
+#include "shoal/formations/conformance.hpp"
 #include "tests/formations/swarm.hpp"
 #include "tests/support/test_name.hpp"
 
@@ -18,52 +19,9 @@ class EveryBehaviour : public testing::TestWithParam<std::string> {
   std::unique_ptr<Behaviour> made = behaviour(GetParam());
 };
 
-/// Neighbours that no formation would have, and the worst that pings may report.
-std::vector<Neighbours> degenerate_swarms() {
-  const auto at = [](std::initializer_list<Vector2d> positions) {
-    Neighbours all;
-    for (const Vector2d& p : positions) all.push_back({p, 0.0, static_cast<int>(all.size()) + 1});
-    return all;
-  };
-  std::vector<Neighbours> swarms{
-      {},
-      at({{200, 0}}),
-      at({{0, 0}}),
-      at({{0, 0}, {0, 0}}),
-      at({{100, 0}, {-100, 0}}),
-      at({{100, 100}, {200, 200}, {300, 300}}),
-      at({{50, 0}, {50, 0}, {50, 0}}),
-      at({{1e-12, 0}, {0, 1e-12}}),
-      at({{1e-300, 0}, {-1e-300, 1e-300}}),
-      at({{649.9999, 0}, {650, 0}, {650.0001, 0}}),
-      at({{1e7, 0}, {0, -1e7}}),
-  };
-  swarms.push_back(heard(square_lattice(4, 3, 5.0), 0));
-  Neighbours crowd;
-  for (int i = 0; i < 40; ++i) crowd.push_back({{7.0 * i, 3.0 * (i % 5)}, 500.0, anonymous});
-  swarms.push_back(crowd);  // more than the plan has slots
-  return swarms;
-}
-
-::testing::AssertionResult finite(const Target& target) {
-  if (target.position.allFinite() && std::isfinite(target.cost) &&
-      target.force_m_s2.value_or(Vector2d::Zero()).allFinite()) {
-    return ::testing::AssertionSuccess();
-  }
-  return ::testing::AssertionFailure() << target.position.transpose() << ", cost " << target.cost;
-}
-
-TEST_P(EveryBehaviour, AnswersEveryDegenerateSwarmWithAFiniteTarget) {
-  const Plan plan = square_lattice(4, 3, 300.0);
-  for (const Neighbours& swarm : degenerate_swarms()) {
-    for (const Neighbours& seen : {swarm, without_ids(swarm)}) {
-      const Target target = made->step({seen, 0}, plan);
-      EXPECT_TRUE(finite(target)) << seen.size() << " neighbours";
-      if (target.held()) {
-        EXPECT_EQ(target.position, Vector2d(0, 0)) << name_of(target.reason);
-      }
-    }
-  }
+TEST_P(EveryBehaviour, HoldsWhatEveryBehaviourHolds) {
+  // Rotations are searched by steps that divide a quarter turn.
+  EXPECT_EQ(violations(*made, {.turn_step_deg = 90.0}), std::vector<std::string>{});
 }
 
 TEST_P(EveryBehaviour, AnswersEverySwarmWithAFiniteTargetAndTwiceWithTheSame) {
@@ -80,23 +38,6 @@ TEST_P(EveryBehaviour, AnswersEverySwarmWithAFiniteTargetAndTwiceWithTheSame) {
       RC_ASSERT(again.reason == target.reason);
     }
   }));
-}
-
-TEST_P(EveryBehaviour, HoldsWithAReasonWhenItHearsNoVehicleAndHasNowhereToGo) {
-  const Target target = made->step({{}, 3}, square_lattice(4, 3, 300.0));
-  if (made->needs_waypoint()) {
-    EXPECT_EQ(target.reason, Reason::placed);
-    return;
-  }
-  EXPECT_EQ(target.reason, Reason::no_neighbour);
-  EXPECT_EQ(target.position, Vector2d(0, 0));
-}
-
-TEST_P(EveryBehaviour, HoldsAmongStrangersIfAndOnlyIfItNeedsIds) {
-  const Plan plan = square_lattice(3, 3, 300.0);
-  const Neighbours strangers = without_ids(heard(plan, 4, {}, {20, 10}));
-  const Target target = made->step({strangers, 4}, plan);
-  EXPECT_EQ(target.held(), made->needs_ids());
 }
 
 TEST_P(EveryBehaviour, GivesTwoThreadsTheSameBits) {

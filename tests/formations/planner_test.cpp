@@ -168,5 +168,79 @@ TEST(AllocationCount, SeesAllocationsOfLibraries) {
   EXPECT_GT(shoal::tests::allocations(), between);
 }
 
+/// What plans for several vehicles at once; each call is counted.
+struct Counted final : Behaviour {
+  std::unique_ptr<Behaviour> rigid = behaviour(rigid_kind);
+  mutable std::vector<std::size_t> calls;
+
+  bool needs_ids() const override { return true; }
+  bool plans_together() const override { return true; }
+  using Behaviour::step;
+  Target step(const Neighbourhood& seen, const Plan& plan, const Solving& solving) const override {
+    return rigid->step(seen, plan, solving);
+  }
+  void step_together(std::span<const Neighbourhood> seen, const Plan& plan,
+                     std::span<const Solving> solving, std::span<Target> targets) const override {
+    calls.push_back(seen.size());
+    Behaviour::step_together(seen, plan, solving, targets);
+  }
+};
+
+TEST(Planner, SeveralPlanTogetherWhatEachPlansAlone) {
+  const auto plan = std::make_shared<const Plan>(cross_plan);
+  const auto counted = std::make_shared<const Counted>();
+  struct Watcher final : PlanObserver {
+    int answers = 0, plans = 0;
+    void answered(const solvers::Answer&, double) override { ++answers; }
+    void planned(const Neighbourhood&, const Target&) override { ++plans; }
+  } watcher;
+  std::vector<Planner> alone, together;
+  for (const char* name : {"v0", "v1", "v2"}) {
+    alone.emplace_back(plan, counted, name);
+    together.emplace_back(plan, counted, name);
+  }
+  together[1].observe(watcher);
+  std::vector<Planner*> all;
+  std::vector<OwnState> own;
+  for (std::size_t i = 0; i < together.size(); ++i) {
+    all.push_back(&together[i]);
+    own.push_back({.position = {10.0 * static_cast<double>(i), -3.0}});
+    for (int sender = 0; sender < cross_plan.size(); ++sender) {
+      if (sender == static_cast<int>(i)) continue;
+      const Ping ping{.time_s = 1.0,
+                      .range_m = 50.0 + 30.0 * sender,
+                      .bearing_rad = 1.1 * sender,
+                      .slot = sender};
+      alone[i].receive(ping, own[i].position);
+      together[i].receive(ping, own[i].position);
+    }
+  }
+  Planner::plan_together(all, 2.0, own);
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    const Target& one = alone[i].plan(2.0, own[i]);
+    EXPECT_FALSE(one.held());
+    EXPECT_EQ(together[i].last_target().position, one.position);
+    EXPECT_EQ(together[i].last_target().cost, one.cost);
+    EXPECT_EQ(together[i].last_plan_s(), 2.0);
+    EXPECT_EQ(together[i].target_from({1, 1}), alone[i].target_from({1, 1}));
+  }
+  EXPECT_EQ(counted->calls, std::vector<std::size_t>{3});
+  EXPECT_EQ(watcher.answers, 1);
+  EXPECT_EQ(watcher.plans, 1);
+}
+
+TEST(Planner, ATimeThatGoesBackForOneChangesNone) {
+  const auto plan = std::make_shared<const Plan>(cross_plan);
+  const auto counted = std::make_shared<const Counted>();
+  Planner first(plan, counted, "v0"), second(plan, counted, "v1");
+  second.plan(5.0, {});
+  Planner* const both[] = {&first, &second};
+  const OwnState own[2] = {};
+  EXPECT_EQ(complaint_of([&] { Planner::plan_together(both, 4.0, own); }),
+            "a plan at t = 4 s comes after a ping or a plan of t = 5 s; time must not go back");
+  EXPECT_LT(first.last_plan_s(), 0.0);
+  EXPECT_TRUE(counted->calls.empty());
+}
+
 }  // namespace
 }  // namespace shoal::formations

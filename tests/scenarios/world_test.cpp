@@ -65,6 +65,43 @@ TEST(World, ThreadsDoNotChangeTheNumbers) {
   EXPECT_EQ(one, run(many, 5));
 }
 
+/// rigid_registration for all vehicles that plan at an instant.
+struct RigidTogether final : formations::Behaviour {
+  static void declare(Options<RigidTogether>&) {}
+  static inline std::size_t most = 0;  ///< at once
+
+  std::shared_ptr<const formations::Behaviour> rigid =
+      Registry<formations::Behaviour>::instance().make("rigid_registration", {}, "rigid");
+
+  bool needs_ids() const override { return true; }
+  bool plans_together() const override { return true; }
+  using Behaviour::step;
+  formations::Target step(const formations::Neighbourhood& seen, const formations::Plan& plan,
+                          const formations::Solving& solving) const override {
+    return rigid->step(seen, plan, solving);
+  }
+  void step_together(std::span<const formations::Neighbourhood> seen, const formations::Plan& plan,
+                     std::span<const formations::Solving> solving,
+                     std::span<formations::Target> targets) const override {
+    most = std::max(most, seen.size());
+    Behaviour::step_together(seen, plan, solving, targets);
+  }
+};
+const Register<formations::Behaviour, RigidTogether> registered{"rigid_together", "a test"};
+
+TEST(World, VehiclesThatPlanTogetherMoveAsThoseThatPlanAlone) {
+  for (const std::string update : {"ping", "tick"}) {
+    const std::vector<std::string> many = with(
+        small, {"plan.square={rows=9,columns=9}", "swarm.start.box.side_m=900",
+                "trial.duration_s=150", "ping.loss_probability=0.3", "planner.update=" + update});
+    RigidTogether::most = 0;
+    EXPECT_EQ(run(scenario_of(with(many, {"behaviour.kind=rigid_together"}))),
+              run(scenario_of(with(many, {"behaviour.kind=rigid_registration"}))))
+        << update;
+    EXPECT_GT(RigidTogether::most, 64u) << update << ": more than a block";
+  }
+}
+
 TEST(World, AnEmptyBatteryStopsAVehicleIfItLimits) {
   const std::vector<std::string> poor =
       with(small, {"current.kind=uniform", "current.uniform.u_m_s=0.1", "energy.battery_wh=1"});

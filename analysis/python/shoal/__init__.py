@@ -14,9 +14,11 @@ Bad input raises InputError with the sentence that the program prints.
 
 from . import _arguments, _shoal
 from ._shoal import (Command, InputError, OwnState, Ping, PingFilter, Plan, Planner, Problem, Solution, SystemError, Table,
-                     formation_quality, match, posed, program, register, solve)
+                     Neighbourhood, Neighbourhoods, SolverProblem, StopSolving, World, formation_quality, match, posed,
+                     program, register, solve)
 from ._shoal import version as __version__
 from ._catalogue import catalogue, measures, options
+from ._members import behaviour, guidance, measure, selection, solver
 from ._potentials import Potential, potential
 from ._studies import claims, study_dataset, study_report, sweep, tables, trials, write_tables
 from ._trials import Run, current, run, scenario
@@ -27,13 +29,12 @@ def load_plugin(file):
     sweep, as `shoal --plugin` does. SHOAL_PLUGINS in the environment names some for all processes.
     Raises InputError if it is none, or was built for another shoal.
     """
-    global program
     _shoal.load_plugin(_arguments.path(file, "file"))
-    program = _shoal.program
 
 
-__all__ = ["Command", "InputError", "OwnState", "Ping", "PingFilter", "Plan", "Planner", "Potential", "Problem", "Run",
-           "Solution", "SystemError", "Table", "__version__", "catalogue", "claims", "current",
-           "formation_quality", "load_plugin", "match", "measures", "options", "posed", "potential",
-           "program", "register", "run", "scenario", "solve", "study_dataset", "study_report", "sweep",
-           "tables", "trials", "write_tables"]
+__all__ = ["Command", "InputError", "Neighbourhood", "Neighbourhoods", "OwnState", "Ping", "PingFilter", "Plan", "Planner",
+           "Potential", "Problem", "Run", "Solution", "SolverProblem", "StopSolving", "SystemError", "Table", "World",
+           "__version__", "behaviour", "catalogue", "claims", "current", "formation_quality", "guidance",
+           "load_plugin", "match", "measure", "measures", "options", "posed", "potential", "program", "register",
+           "run", "scenario", "selection", "solve", "solver", "study_dataset", "study_report", "sweep", "tables",
+           "trials", "write_tables"]

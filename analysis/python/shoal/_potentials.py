@@ -2,17 +2,17 @@
 
 from __future__ import annotations
 
-import hashlib
-import pickle
-import types
 from typing import Any, Callable
 
 import numpy
 
-from . import _arguments, _shoal
+from . import _arguments, _shoal, _versions
 from ._taylor import Taylor
 
 Law = Callable[[Any, float], Any]
+
+#: By name and version, what was made of each function that is known here.
+KNOWN: dict[tuple[str, str], Callable] = {}
 
 
 class Potential:
@@ -63,11 +63,19 @@ def potential(law: str | Law, *, slope: Law | None = None, curvature: Law | None
     name = getattr(law, "__name__", type(law).__name__)
     answer = _differentiated(law, slope, curvature, name)
     parts = [law] + [part for part in (slope, curvature) if part is not None]
-    source = (hashlib.sha256(b"|".join(map(_code, parts))).hexdigest()[:16] if version is None
-              else _arguments.text(version, "version"))
+    source = _versions.of_functions(parts) if version is None else _arguments.text(version, "version")
     _shoal.keep_function(name, source, answer)
+    KNOWN[name, source] = answer
     limits = {key: limit for key, limit in (("from_m", from_m), ("to_m", to_m)) if limit is not None}
     return Potential("python", {"name": name, "source": source, "batch": batch, **limits})
+
+
+def learn(known: dict[tuple[str, str], Callable]) -> None:
+    """Makes known what another process knows."""
+    for (name, source), answer in known.items():
+        if (name, source) not in KNOWN:
+            _shoal.keep_function(name, source, answer)
+            KNOWN[name, source] = answer
 
 
 def _differentiated(law: Law, slope: Law | None, curvature: Law | None, name: str):
@@ -98,43 +106,3 @@ def _spread(part: Any, shape: tuple[int, ...], name: str):
         raise _shoal.InputError(f"{name} returned an array of shape {numpy.shape(part)} for distances of shape "
                                 f"{shape}; it has to return a number for each")
     return part + numpy.zeros(shape)
-
-
-def _code(function: Any, known: frozenset[int] = frozenset()) -> bytes:
-    """What a function does, as bytes: its code, and what it uses from outside."""
-    code = getattr(function, "__code__", None)
-    if code is None:
-        raise _shoal.InputError(f"{function!r} has no code that tells its versions apart; give one: "
-                                "version=\"1\"")
-    known |= {id(function)}
-    cells = [cell.cell_contents for cell in function.__closure__ or ()]
-    used = [function.__globals__[name] for name in _names(code) if name in function.__globals__]
-    outside = [_content(value, known)
-               for value in [*cells, *used, function.__defaults__, function.__kwdefaults__]]
-    return repr((_instructions(code), outside)).encode()
-
-
-def _names(code: types.CodeType) -> list[str]:
-    """Names that code looks up, also that inside it."""
-    inner = [name for part in code.co_consts if isinstance(part, types.CodeType) for name in _names(part)]
-    return [*code.co_names, *inner]
-
-
-def _instructions(code: types.CodeType) -> tuple:
-    return (code.co_code, code.co_names,
-            [_instructions(part) if isinstance(part, types.CodeType) else repr(part)
-             for part in code.co_consts])
-
-
-def _content(value: Any, known: frozenset[int]) -> bytes:
-    if id(value) in known:  # a function that calls itself
-        return b"itself"
-    if isinstance(value, types.ModuleType):
-        return value.__name__.encode()
-    if isinstance(value, types.FunctionType):
-        return _code(value, known)
-    try:
-        return pickle.dumps(value)
-    except Exception as error:
-        raise _shoal.InputError(f"what the function uses, {value!r}, cannot be told from other versions "
-                                "of it; give a version: version=\"1\"") from error

@@ -26,7 +26,7 @@ import time
 import uuid
 from typing import TYPE_CHECKING, Any, Callable, Mapping
 
-from . import _arguments, _shoal
+from . import _arguments, _members, _potentials, _shoal
 from ._studies import folder_of, study_report, trials, write_tables
 
 if TYPE_CHECKING:
@@ -79,7 +79,7 @@ def run(open_sweep: _shoal.OpenSweep, client: Client, batch: int,
         indices = range(first, min(first + batch, len(open_sweep)))
         first = indices.stop
         # Not pure: the answer of another task may not stand for it.
-        future = client.submit(answers, [open_sweep.request(i) for i in indices],
+        future = client.submit(answers, [open_sweep.request(i) for i in indices], _own_code(),
                                key=f"{name}-{indices.start}", pure=False)
         batches[future.key] = indices
         return future
@@ -119,8 +119,16 @@ def _without_package(client: Client, error: ModuleNotFoundError) -> str:
     return f"{where} cannot import {name}; start workers with PYTHONPATH={package}, or install the package there"
 
 
-def answers(requests: list[str]) -> list[str]:
+def _own_code() -> tuple[dict, dict]:
+    """What this process was given, and a worker needs: classes, and functions of potentials."""
+    return dict(_members.KNOWN), dict(_potentials.KNOWN)
+
+
+def answers(requests: list[str], own_code: tuple[dict, dict] = ({}, {})) -> list[str]:
     """What a worker does."""
+    classes, functions = own_code
+    _members.learn(classes)
+    _potentials.learn(functions)
     return [_shoal.answer(request) for request in requests]
 
 
