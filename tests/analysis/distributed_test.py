@@ -114,7 +114,7 @@ class Distributed(StudyDesk):
         self.assertIn("many: 9 of 9 trials are stored, 9 of them run now", done.stdout)
         self.assert_same_study("one", "many")
         again = self.shoal("sweep", "study.toml", "--dask", cluster.address, "--out", "many")
-        self.assertIn("all trials are stored already", again.stdout)
+        self.assertIn("many: 9 of 9 trials are stored, 0 of them run now", again.stdout)
 
     def test_trials_that_fail_are_stored_as_such(self):
         self.write("sea.toml", FAILING)
