@@ -4,7 +4,7 @@
 #include <optional>
 
 #include "shoal/core/text.hpp"
-#include "shoal/core/text_file.hpp"
+#include "shoal/core/whole_file.hpp"
 
 namespace shoal {
 namespace {
@@ -14,7 +14,7 @@ std::string content_of(const FilePath& file) {
   if (std::filesystem::is_directory(file.path)) {
     throw InputError(file.origin, name + " is a directory; name a CSV file");
   }
-  std::optional<std::string> content = read_text_file(file.path);
+  std::optional<std::string> content = read_whole_file(file.path);
   if (!content)
     throw InputError(file.origin, "cannot open " + name + "; is there such a CSV file?");
   if (content->starts_with("\xEF\xBB\xBF")) content->erase(0, 3);

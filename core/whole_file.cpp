@@ -2,11 +2,10 @@
 
 #include <unistd.h>
 
+#include <array>
 #include <cerrno>
 #include <cstdio>
 #include <fstream>
-#include <ios>
-#include <iterator>
 #include <system_error>
 
 #include "shoal/core/error.hpp"
@@ -59,14 +58,27 @@ void write_whole_file(const fs::path& file, std::span<const char> content) {
   }
 }
 
-std::optional<std::string> read_whole_file(const std::filesystem::path& file) {
+std::string size_text(std::size_t bytes) {
+  constexpr std::size_t megabyte = 1'000'000;
+  return bytes < megabyte ? std::to_string(bytes) + " bytes"
+                          : std::to_string(bytes / megabyte) + " MB";
+}
+
+std::optional<std::string> read_whole_file(const fs::path& file, std::size_t most_bytes) {
   std::ifstream in(file, std::ios::binary);
-  if (!in.is_open()) return std::nullopt;
-  try {
-    return std::string(std::istreambuf_iterator<char>(in), {});
-  } catch (const std::ios_base::failure&) {  // a folder opens, but does not read
-    return std::nullopt;
+  if (!in) return std::nullopt;
+  std::string content;
+  std::array<char, 65536> block;
+  while (in.read(block.data(), block.size()) || in.gcount() > 0) {
+    content.append(block.data(), static_cast<std::size_t>(in.gcount()));
+    if (content.size() > most_bytes) {
+      throw InputError({file.string()}, "the file holds more than " + size_text(most_bytes) +
+                                            ", which is the most that is read; name another file, "
+                                            "or cut this one");
+    }
   }
+  if (in.bad()) return std::nullopt;  // a folder opens, but does not read
+  return content;
 }
 
 }  // namespace shoal

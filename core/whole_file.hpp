@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <filesystem>
 #include <optional>
 #include <span>
@@ -12,7 +13,16 @@ namespace shoal {
 /// (a device, a pipe) is written to, and a link stays a link. Throws SystemError.
 void write_whole_file(const std::filesystem::path& file, std::span<const char> content);
 
-/// What a file holds, byte for byte; nothing if it cannot be read.
-std::optional<std::string> read_whole_file(const std::filesystem::path& file);
+/// The most that is read of a file of text: one without an end, such as a device, would else take
+/// all memory.
+inline constexpr std::size_t most_text_bytes = 64'000'000;
+
+/// So many bytes, in a message: `64 MB`.
+std::string size_text(std::size_t bytes);
+
+/// What a file holds, byte for byte; nothing if it cannot be read. Throws InputError if that is
+/// more than `most_bytes`.
+std::optional<std::string> read_whole_file(const std::filesystem::path& file,
+                                           std::size_t most_bytes = most_text_bytes);
 
 }  // namespace shoal

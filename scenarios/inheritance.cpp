@@ -64,6 +64,12 @@ class Resolver {
                                           " files inherit one another in a row; let one of them "
                                           "name a file that is nearer to the end");
       }
+      if (++reached_ > most_inherited) {
+        throw InputError(each.origin, "more than " + std::to_string(most_inherited) +
+                                          " files are inherited in all (one that is inherited in "
+                                          "several ways counts each time); let a file that several "
+                                          "share be inherited once");
+      }
       if (std::ranges::find(seen_, file) == seen_.end()) seen_.push_back(file);
       std::vector<fs::path> with_this = below;
       with_this.push_back(file);
@@ -85,6 +91,7 @@ class Resolver {
 
   TomlFiles& files_;
   std::vector<fs::path> seen_;
+  std::size_t reached_ = 0;
 };
 
 }  // namespace

@@ -16,6 +16,10 @@ inline constexpr const char* inherits_key = "inherits";
 /// The longest row of files that inherit one another: each holds a copy of all behind it.
 inline constexpr std::size_t deepest_inheritance = 32;
 
+/// The most files that one scenario inherits in all. Each counts as often as it is reached: where
+/// each of a row names the next one twice, the last is reached 2^n times.
+inline constexpr std::size_t most_inherited = 256;
+
 /// TOML files, each read once.
 class TomlFiles {
  public:
@@ -40,7 +44,7 @@ struct Inheritance {
 /// of the files, so that messages and relative files go by where something was written.
 ///
 /// Throws InputError, where it was named, if there is no such set, scenario or file, or if files
-/// inherit one another in a circle or in too long a row.
+/// inherit one another in a circle, in too long a row, or too many.
 Inheritance with_inherited(Setting root, TomlFiles& files);
 
 /// Whether what is inherited is named by its file and not as one that ships: it has a folder, or

@@ -10,7 +10,7 @@
 
 #include "shoal/core/nesting.hpp"
 #include "shoal/core/text.hpp"
-#include "shoal/core/text_file.hpp"
+#include "shoal/core/whole_file.hpp"
 #include "shoal/scenarios/inheritance.hpp"
 
 namespace shoal::scenarios {
@@ -127,7 +127,7 @@ Setting read_toml(const std::filesystem::path& file) {
   if (std::filesystem::is_directory(file)) {
     throw InputError({name, 0}, "this is a directory; name a TOML file");
   }
-  const std::optional<std::string> content = read_text_file(file);
+  const std::optional<std::string> content = read_whole_file(file);
   if (!content) throw InputError({name, 0}, "the file cannot be opened; is there such a file?");
   return parse_toml(*content, name);
 }

@@ -4,7 +4,7 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
-#include "shoal/core/text_file.hpp"
+#include "shoal/core/text_lines.hpp"
 #include "shoal/core/whole_file.hpp"
 
 namespace shoal::analysis {
@@ -196,14 +196,14 @@ void write_corpus(const Corpus& corpus, const std::filesystem::path& file) {
   write_whole_file(file, text);
 }
 
-Corpus read_corpus(const std::filesystem::path& file) {
+Corpus read_corpus(const std::filesystem::path& file, std::size_t most_bytes) {
   std::ifstream stream(file);
   if (!stream) throw InputError("cannot open " + file.string());
   Corpus corpus;
   std::string text;
-  Origin origin{file.string(), 0};
-  while (read_line(stream, text, {origin.file, origin.line + 1})) {
-    ++origin.line;
+  TextLines lines(stream, file.string(), most_bytes);
+  const Origin& origin = lines.origin();
+  while (lines.next(text)) {
     try {
       const Json line = Json::parse(text);
       if (line.contains("plan")) {

@@ -45,7 +45,11 @@ struct Corpus {
 /// appears when it is complete. Throws SystemError.
 void write_corpus(const Corpus& corpus, const std::filesystem::path& file);
 
-/// Throws InputError with file and line for anything that is no corpus.
-Corpus read_corpus(const std::filesystem::path& file);
+/// The most that is read of a corpus: about a million situations.
+inline constexpr std::size_t most_corpus_bytes = 1'000'000'000;
+
+/// Throws InputError with file and line for anything that is no corpus, or one of more than
+/// `most_bytes`.
+Corpus read_corpus(const std::filesystem::path& file, std::size_t most_bytes = most_corpus_bytes);
 
 }  // namespace shoal::analysis

@@ -18,6 +18,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
+constexpr std::size_t most_plugin_bytes = 1'000'000'000;  // with debugging symbols
 constexpr char variable[] = "SHOAL_PLUGINS";
 // In two parts, so that this library does not look like a plugin itself.
 const std::string mark = std::string("shoal plugin, ") + "ABI ";
@@ -51,7 +52,7 @@ void load_plugin(const fs::path& given) {
     throw InputError("the plugin " + file.string() +
                      " has a colon in its path, which separates those of SHOAL_PLUGINS; move it");
   }
-  const auto content = read_whole_file(file);
+  const auto content = read_whole_file(file, most_plugin_bytes);
   if (!content) throw InputError("cannot read the plugin " + file.string());
   require_abi(file, *content);
   const RegistryWatch watch;

@@ -4,8 +4,8 @@
 #include <filesystem>
 
 #include "commands.hpp"
-#include "named_files.hpp"
-#include "shoal/analysis/experiments/results/study_tables.hpp"
+#include "shoal/analysis/experiments/named_files.hpp"
+#include "shoal/analysis/experiments/pipeline.hpp"
 #include "shoal/analysis/experiments/study/cell_scenarios.hpp"
 #include "shoal/analysis/experiments/trial.hpp"
 #include "shoal/analysis/tables/table.hpp"
@@ -38,8 +38,7 @@ void check_scenario(const fs::path& file) {
 
 /// Everything that a sweep would refuse before its trials, and the world of a cell of each group.
 void check_study(const fs::path& file) {
-  const analysis::TrialList list(analysis::read_study(scenarios::read_toml(file)));
-  const std::size_t tables = analysis::require_answerable(list);
+  const auto [list, tables] = analysis::planned_study(scenarios::read_toml(file));
   analysis::CellScenarios scenarios(list);
   for (std::size_t g = 0; g < list.groups().size(); ++g) {
     for (std::size_t cell = list.groups()[g].cells(); cell-- > 0;) {
@@ -66,7 +65,7 @@ void check_study(const fs::path& file) {
 
 void check_toml(const fs::path& file) {
   const Setting root = scenarios::read_toml(file);
-  require_no_claims(root, file);
+  analysis::require_no_claims(root, file);
   const bool study = analysis::looks_like_a_study(root);
   study ? check_study(file) : check_scenario(file);
 }

@@ -12,7 +12,8 @@ namespace shoal::program {
 void report(const std::string& folder) {
   const std::filesystem::path place = folder;
   if (std::filesystem::exists(place / "study.toml")) {
-    analysis::write_study_report(place);
+    analysis::SweptStudy study(place);
+    analysis::write_study_report(study);
   } else if (std::filesystem::exists(place / "scenario.toml")) {
     for (const std::string& note : analysis::write_run_report(place)) fmt::print("{}\n", note);
   } else {

@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "commands.hpp"
-#include "named_files.hpp"
 #include "shoal/analysis/benchmarking/problem_recorder.hpp"
+#include "shoal/analysis/experiments/named_files.hpp"
 #include "shoal/analysis/experiments/trial.hpp"
 #include "shoal/analysis/reporting/run_report.hpp"
 #include "shoal/core/error.hpp"
@@ -81,7 +81,7 @@ void require_own_name(const std::filesystem::path& problems, const std::filesyst
 }  // namespace
 
 void run(const RunArguments& arguments) {
-  const std::filesystem::path file = scenario_file(arguments.scenario);
+  const std::filesystem::path file = analysis::scenario_file(arguments.scenario);
   Setting root = scenarios::read_toml(file);
   for (const std::string& set : arguments.sets) scenarios::apply_set(root, set);
   if (!arguments.seed.empty()) scenarios::apply_set(root, "trial.seed=" + arguments.seed);

@@ -4,16 +4,16 @@
 
 #include "commands.hpp"
 #include "shoal/analysis/experiments/claims/claim_text.hpp"
-#include "shoal/analysis/experiments/results/study_tables.hpp"
-#include "shoal/analysis/experiments/study/study_files.hpp"
 #include "shoal/analysis/tables/latex_signs.hpp"
 #include "shoal/core/text.hpp"
+#include "show_tables.hpp"
 
 namespace shoal::program {
 namespace {
 
 using analysis::Judgement;
 using analysis::StudyResults;
+using analysis::SweptStudy;
 
 void print_state(const StudyResults& results) {
   const std::size_t failed = results.count(StudyResults::State::failed);
@@ -22,18 +22,18 @@ void print_state(const StudyResults& results) {
   if (missing > 0) fmt::print("{} trials have not run yet; shoal sweep runs them\n", missing);
 }
 
-void write_all(const StudyResults& results, const std::vector<analysis::Table>& tables,
-               const Judgement& claims, const std::string& folder) {
-  const std::size_t written = analysis::write_tables(tables, claims, folder);
-  print_state(results);
+void write_all(SweptStudy& study) {
+  const std::string folder = study.folder().string();
+  const std::size_t written = study.write_tables();
+  print_state(study.results());
   fmt::print("written: {}/tables, {} tables as .tex, .csv and .md\n", folder, written);
-  for (const analysis::Table& table : tables) {
+  for (const analysis::Table& table : study.tables()) {
     const auto unknown = analysis::unknown_to_latex(print(table, analysis::TableFormat::latex));
     if (unknown.empty()) continue;
     fmt::print("tables/{}.tex needs XeLaTeX or LuaLaTeX, for {}\n", table.name, listed(unknown));
   }
-  if (claims.statements.empty()) return;
-  for (const std::string& line : analysis::count_lines(claims)) {
+  if (study.claims().statements.empty()) return;
+  for (const std::string& line : analysis::count_lines(study.claims())) {
     fmt::print("{} (shoal claims {})\n", line, folder);
   }
 }
@@ -81,22 +81,25 @@ void print_statement(const analysis::JudgedStatement& statement, const Judgement
 
 }  // namespace
 
-void tables(const std::string& folder, bool summary) {
-  const StudyResults results = analysis::read_results(analysis::stored_list(folder), folder);
-  const std::vector<analysis::Table> tables = analysis::study_tables(results);
-  const Judgement claims = analysis::judged_claims(results, folder);
+void show_tables(SweptStudy& study, bool summary) {
+  const std::vector<analysis::Table>& tables = study.tables();
   // After a sweep, the first table: the one that the study begins with.
   const std::size_t shown = summary ? std::min<std::size_t>(1, tables.size()) : tables.size();
   for (std::size_t i = 0; i < shown; ++i) {
     fmt::print("{}:\n{}\n", tables[i].name,
                analysis::print(tables[i], analysis::TableFormat::text));
   }
-  write_all(results, tables, claims, folder);
+  write_all(study);
+}
+
+void tables(const std::string& folder, bool summary) {
+  SweptStudy study(folder);
+  show_tables(study, summary);
 }
 
 void claims(const std::string& folder) {
-  const StudyResults results = analysis::read_results(analysis::stored_list(folder), folder);
-  const Judgement judgement = analysis::judged_claims(results, folder);
+  SweptStudy study(folder);
+  const Judgement& judgement = study.claims();
   if (judgement.statements.empty()) {
     throw InputError(folder +
                      ": the study has no claims; name a file of them with claims = \"...\"");
@@ -105,7 +108,7 @@ void claims(const std::string& folder) {
   for (const analysis::JudgedStatement& statement : judgement.statements) {
     print_statement(statement, judgement);
   }
-  print_state(results);
+  print_state(study.results());
   fmt::print("{}\n", analysis::verdict_note(judgement));
   for (const std::string& line : analysis::count_lines(judgement)) fmt::print("{}\n", line);
 }

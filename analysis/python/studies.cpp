@@ -3,11 +3,11 @@
 
 #include "conversions.hpp"
 #include "python_class.hpp"
-#include "shoal/analysis/experiments/results/study_tables.hpp"
+#include "shoal/analysis/experiments/named_files.hpp"
+#include "shoal/analysis/experiments/pipeline.hpp"
 #include "shoal/analysis/experiments/study/cell_scenarios.hpp"
-#include "shoal/analysis/experiments/study/study_files.hpp"
 #include "shoal/analysis/experiments/sweep/open_sweep.hpp"
-#include "shoal/analysis/experiments/sweep/sweep.hpp"
+#include "shoal/analysis/experiments/sweep/progress_text.hpp"
 #include "shoal/analysis/reporting/export.hpp"
 #include "shoal/analysis/reporting/study_report.hpp"
 #include "shoal/scenarios/library_path.hpp"
@@ -19,14 +19,12 @@ namespace {
 namespace fs = std::filesystem;
 
 /// A study by name, by path, or as a dict.
-analysis::TrialList read(py::object study, std::int64_t replications) {
-  Setting root = py::isinstance<py::dict>(study)
-                     ? to_setting(study)
-                     : scenarios::read_toml(analysis::find_study(py::str(study)));
-  if (replications > 0) analysis::set_replications(root, replications);
-  analysis::TrialList list(analysis::read_study(root));
-  analysis::require_answerable(list);
-  return list;
+analysis::TrialList planned(const py::object& study, std::int64_t replications) {
+  const bool whole = py::isinstance<py::dict>(study);
+  return analysis::planned_study(
+             whole ? to_setting(study) : scenarios::read_toml(analysis::study_file(py::str(study))),
+             replications)
+      .list;
 }
 
 py::dict counts(const analysis::SweepProgress& progress) {
@@ -52,7 +50,7 @@ std::string program_beside() {
 py::dict sweep(const py::object& study, const std::string& folder, int jobs,
                std::int64_t replications, bool rerun_changed, bool retry_failed,
                const py::object& progress) {
-  const analysis::TrialList list = read(study, replications);
+  const analysis::TrialList list = planned(study, replications);
   analysis::SweepSettings settings{.jobs = jobs,
                                    .rerun_changed = rerun_changed,
                                    .retry_failed = retry_failed,
@@ -77,7 +75,8 @@ class Sweep {
  public:
   Sweep(const py::object& study, const std::string& folder, std::int64_t replications,
         bool rerun_changed, bool retry_failed, int jobs)
-      : list_(read(study, replications)),
+      : list_(planned(study, replications)),
+        folder_(folder),
         open_(list_, folder,
               {.jobs = jobs,
                .rerun_changed = rerun_changed,
@@ -101,20 +100,25 @@ class Sweep {
     return done;
   }
 
-  py::dict progress() const {
-    analysis::SweepProgress now = open_.progress();
-    now.elapsed_s = elapsed_s();
-    return counts(now);
-  }
+  py::dict progress() const { return counts(now()); }
+  std::string progress_text() const { return analysis::progress_text(now()); }
+  std::vector<std::string> summary() const { return analysis::summary_lines(now(), folder_); }
 
   void end() { open_.end(elapsed_s()); }
 
  private:
+  analysis::SweepProgress now() const {
+    analysis::SweepProgress progress = open_.progress();
+    progress.elapsed_s = elapsed_s();
+    return progress;
+  }
+
   double elapsed_s() const {
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - began_).count();
   }
 
   analysis::TrialList list_;
+  fs::path folder_;
   analysis::OpenSweep open_;
   analysis::CellScenarios scenarios_;
   std::chrono::steady_clock::time_point began_ = std::chrono::steady_clock::now();
@@ -147,10 +151,9 @@ void append_claim(py::list& rows, const analysis::JudgedStatement& statement,
   }
 }
 
-py::list claims(const std::string& folder) {
-  const auto results = analysis::read_results(analysis::stored_list(folder), folder);
+py::list claims(analysis::SweptStudy& study) {
   py::list rows;
-  const analysis::Judgement judgement = analysis::judged_claims(results, folder);
+  const analysis::Judgement& judgement = study.claims();
   for (const analysis::JudgedStatement& statement : judgement.statements) {
     for (const analysis::JudgedClaim& part : statement.parts) {
       for (std::size_t c = 0; c < judgement.columns.size(); ++c) {
@@ -201,6 +204,8 @@ void add_studies(py::module_& module) {
       .def("request", &Sweep::request, py::arg("index"))
       .def("store", &Sweep::store, py::arg("index"), py::arg("answer"))
       .def("progress", &Sweep::progress)
+      .def("progress_text", &Sweep::progress_text)
+      .def("summary", &Sweep::summary)
       .def("end", &Sweep::end);
   module.def(
       "answer",
@@ -213,18 +218,13 @@ void add_studies(py::module_& module) {
   module.def(
       "trials_csv", [](const std::string& folder) { return analysis::StudyExport(folder).csv(); },
       py::arg("folder"));
-  module.def("claims", &claims, py::arg("folder"));
-  module.def(
-      "study_report", [](const std::string& folder) { analysis::write_study_report(folder); },
-      py::arg("folder"));
-  module.def(
-      "write_tables",
-      [](const std::string& folder) {
-        const auto results = analysis::read_results(analysis::stored_list(folder), folder);
-        analysis::write_tables(analysis::study_tables(results),
-                               analysis::judged_claims(results, folder), folder);
-      },
-      py::arg("folder"));
+  py::class_<analysis::SweptStudy>(module, "SweptStudy")
+      .def(py::init([](const std::string& folder) { return analysis::SweptStudy(folder); }),
+           py::arg("folder"))
+      .def("tables", &analysis::SweptStudy::tables)
+      .def("claims", &claims)
+      .def("write_tables", [](analysis::SweptStudy& study) { study.write_tables(); })
+      .def("write_report", &analysis::write_study_report);
   module.def(
       "export_netcdf",
       [](const std::string& folder, const std::string& file) {
@@ -250,13 +250,6 @@ void add_studies(py::module_& module) {
       .def("_repr_html_", [](const analysis::Table& table) {
         return analysis::print(table, analysis::TableFormat::html);
       });
-  module.def(
-      "tables",
-      [](const std::string& folder) {
-        return analysis::study_tables(
-            analysis::read_results(analysis::stored_list(folder), folder));
-      },
-      py::arg("folder"));
 }
 
 }  // namespace shoal::python

@@ -4,9 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "shoal/analysis/experiments/claims/claim_text.hpp"
-#include "shoal/analysis/experiments/results/study_tables.hpp"
 #include "shoal/analysis/experiments/store/manifest.hpp"
-#include "shoal/analysis/experiments/study/study_files.hpp"
 #include "shoal/analysis/reporting/packed.hpp"
 #include "shoal/analysis/reporting/page.hpp"
 #include "shoal/core/text.hpp"
@@ -152,11 +150,11 @@ Json pictures(const fs::path& folder) {
 
 }  // namespace
 
-void write_study_report(const fs::path& folder) {
-  const TrialList list = stored_list(folder);
-  const StudyResults results = read_results(list, folder);
+void write_study_report(SweptStudy& study) {
+  const fs::path& folder = study.folder();
+  const StudyResults& results = study.results();
   using enum StudyResults::State;
-  const std::string title = list.study().title;
+  const std::string title = results.list().study().title;
   Json data{{"title", title.empty() ? fs::absolute(folder).filename().string() : title},
             {"done", results.count(done)},
             {"failed", results.count(failed)},
@@ -167,13 +165,13 @@ void write_study_report(const fs::path& folder) {
             {"study", read_whole_file(folder / "study.toml").value()},
             {"manifest", stored_manifest(folder)}};
   data["tables"] = Json::array();
-  for (const Table& table : study_tables(results)) {
+  for (const Table& table : study.tables()) {
     data["tables"].push_back({{"name", table.name},
                               {"html", print(table, TableFormat::html)},
                               {"points", charts(table)}});
   }
   data["files"] = written_tables(folder / "tables");
-  data["claims"] = claims(judged_claims(results, folder));
+  data["claims"] = claims(study.claims());
   write_whole_file(folder / "report.html", whole_page("study.html", data));
 }
 

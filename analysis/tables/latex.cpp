@@ -214,10 +214,10 @@ std::string boxed(const Table& table, const Layout& layout, const std::string& l
   if (std::ranges::any_of(layout.columns, &LaidColumn::best)) {
     printed += "  \\def\\best#1#2{\\llap{\\boldmath$#1$}\\rlap{\\boldmath$#2$}}%\n";
   }
-  const std::vector<Table> parts = latex_parts(table, layout);
-  for (const Table& part : parts) {
+  const std::vector<LatexPart> parts = latex_parts(table, layout);
+  for (const LatexPart& part : parts) {
     if (&part != &parts.front()) printed += "  \\par\\medskip\n";
-    printed += box_of(part, Layout(part));
+    printed += box_of(part.table, part.layout);
   }
   return printed + "\\end{table}\n";
 }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <numeric>
+#include <utility>
 
 namespace shoal::analysis {
 namespace {
@@ -52,14 +53,21 @@ std::vector<Columns> groups_of(const Layout& layout, std::size_t first) {
   return groups;
 }
 
-Table part_of(const Table& table, const std::vector<std::size_t>& columns) {
+LatexPart part_of(const Table& table, const Layout& layout, const Columns& columns) {
   Table part;
   for (const std::size_t c : columns) part.columns.push_back(table.columns[c]);
   for (const auto& row : table.rows) {
     part.rows.emplace_back();
     for (const std::size_t c : columns) part.rows.back().push_back(row[c]);
   }
-  return part;
+  Layout laid(part);
+  laid.notes.clear();
+  for (std::size_t r = 0; r < laid.rows.size(); ++r) {
+    for (std::size_t k = 0; k < columns.size(); ++k) {
+      laid.rows[r][k] = layout.rows[r][columns[k]];
+    }
+  }
+  return {std::move(part), std::move(laid)};
 }
 
 }  // namespace
@@ -73,10 +81,10 @@ std::size_t longest_text(const Table& table, std::size_t column) {
   return longest;
 }
 
-std::vector<Table> latex_parts(const Table& table, const Layout& layout) {
+std::vector<LatexPart> latex_parts(const Table& table, const Layout& layout) {
   Columns all(layout.columns.size());
   std::iota(all.begin(), all.end(), 0);
-  if (width_of(table, layout, all) <= most_pt) return {table};
+  if (width_of(table, layout, all) <= most_pt) return {{table, layout}};
   const std::size_t first = std::min(count_labels(layout), all.size());
   const Columns labels(all.begin(), all.begin() + static_cast<std::ptrdiff_t>(first));
   const double room = most_pt - width_of(table, layout, labels);
@@ -99,11 +107,11 @@ std::vector<Table> latex_parts(const Table& table, const Layout& layout) {
       for (const std::size_t c : group) append({c});
     }
   }
-  if (parts.size() < 2) return {table};
-  std::vector<Table> tables;
-  for (const Columns& columns : parts) tables.push_back(part_of(table, columns));
-  tables.back().notes = table.notes;
-  return tables;
+  if (parts.size() < 2) return {{table, layout}};
+  std::vector<LatexPart> parted;
+  for (const Columns& columns : parts) parted.push_back(part_of(table, layout, columns));
+  parted.back().layout.notes = layout.notes;
+  return parted;
 }
 
 }  // namespace shoal::analysis

@@ -14,6 +14,7 @@
 #include "shoal/analysis/experiments/trial.hpp"
 #include "shoal/scenarios/behaviour_choice.hpp"
 #include "shoal/scenarios/toml_file.hpp"
+#include "tests/support/complaint_of.hpp"
 
 namespace shoal::analysis {
 namespace {
@@ -190,6 +191,16 @@ TEST_F(Corpora, AreRefusedWithTheLineThatIsWrong) {
   EXPECT_EQ(situation("0", "0", at_rest, "[1,2,3,1.5,0,0,0]"),
             name + ":2: the slot of an entry of heard is 1.5; it is a whole number");
   EXPECT_EQ(complaint(folder / "nowhere"), "cannot open " + (folder / "nowhere").string());
+}
+
+TEST_F(Corpora, AreReadUpToALimitThoughAllLinesAreGood) {
+  const std::string line = R"({"scenario":"s","behaviour":{"kind":"rigid_registration"},)"
+                           R"("plan":[["a",0,0],["b",9,0]],"obstacles":[]})"
+                           "\n";
+  const fs::path file = written(line + line + line);
+  const std::string why =
+      tests::complaint_of([&] { read_corpus(file, 2 * line.size() + line.size() / 2); });
+  EXPECT_TRUE(why.starts_with(file.string() + ":3: here the file holds more than ")) << why;
 }
 
 // The comparison ----------------------------------------------------------------------------------

@@ -71,6 +71,12 @@ class Figures(Desk):
             self.assertEqual({file.name for file in files},
                              {file.name for file in (self.desk / scenario / "figures").iterdir()})
 
+    def test_a_folder_may_have_blanks_and_backslashes_in_its_name(self):
+        self.recorded("potentials_channel", "--no-report")
+        (self.desk / "potentials_channel").rename(self.desk / "a\\b c")
+        self.assertEqual(self.drawn("a\\b c", "--only", "speeds"),
+                         {pathlib.Path("a\\b c/figures") / f"speeds.{kind}" for kind in ("pdf", "svg")})
+
     def test_the_same_run_gives_the_same_bytes(self):
         self.recorded("potentials_clutter")
         first = {file: (self.desk / file).read_bytes() for file in self.drawn("potentials_clutter")}

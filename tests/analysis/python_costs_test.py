@@ -277,6 +277,50 @@ class Planning(PythonDesk):
         with self.assertRaisesRegex(shoal.InputError, "two columns"):
             shoal.Plan([1, 2, 3])
 
+    def test_arguments_of_another_kind_are_refused_by_name(self):
+        planner = shoal.Planner(self.plan, "rigid_registration", "anna")
+        tracks = shoal.PingFilter()
+        ping, own = self.ping(1, (100, 0)), shoal.OwnState([0, 0])
+        made = {"plan": self.plan, "behaviour": "rigid_registration", "vehicle": "anna"}
+        heard = {"time_s": 1, "range_m": 9, "bearing_rad": 0}
+        calls = [(name, lambda name=name, wrong=wrong: shoal.Planner(**{**made, name: wrong}))
+                 for name, wrong in (("plan", [[0, 0]]), ("behaviour", 5), ("vehicle", None), ("options", [1]),
+                                     ("ping_filter", 3), ("obstacles", 7), ("waypoint", "here"),
+                                     ("guidance", 1), ("guidance_options", None))]
+        calls += [(name, lambda name=name, wrong=wrong: shoal.Ping(**{**heard, name: wrong}))
+                  for name, wrong in (("time_s", "now"), ("range_m", None), ("bearing_rad", 1j),
+                                      ("elevation_rad", [0]), ("slot", 1.5), ("slot", -2), ("state", [0, 0]))]
+        calls += [(name, lambda name=name, wrong=wrong: shoal.OwnState(**{"position": [0, 0], name: wrong}))
+                  for name, wrong in (("position", [1j, 0]), ("velocity", None), ("heading_rad", "east"),
+                                      ("speed_m_s", 1j), ("turn_rate_rad_s", numpy.complex128(1)))]
+        calls += [(name, lambda name=name, wrong=wrong: setattr(own, name, wrong))
+                  for name, wrong in (("position", 1j), ("velocity", ["a", "b"]), ("speed_m_s", 1j))]
+        calls += [("ping", lambda: planner.receive(5, [0, 0])), ("position", lambda: planner.receive(ping, None)),
+                  ("time_s", lambda: planner.plan("now", own)), ("own", lambda: planner.plan(1.0, None)),
+                  ("position", lambda: planner.plan(1.0, position="here")),
+                  ("position", lambda: planner.target(own)), ("own", lambda: planner.command("here")),
+                  ("options", lambda: shoal.PingFilter(5)), ("ping", lambda: tracks.receive(own, [0, 0])),
+                  ("position", lambda: tracks.receive(ping, [1j, 0])),
+                  ("time_s", lambda: tracks.neighbours(None, [0, 0])),
+                  ("position", lambda: tracks.neighbours(1.0, own)),
+                  ("names", lambda: shoal.Plan([[0, 0]], "anna")), ("kind", lambda: shoal.Plan.of(5)),
+                  ("name", lambda: self.plan.index_of(1))]
+        for name, call in calls:
+            with self.subTest(name=name), self.assertRaisesRegex(shoal.InputError, f"^{name} is .*; it takes"):
+                call()
+        for call, says in ((lambda: planner.target([1, 2, 3]), "position has 3 numbers; it takes two"),
+                           (lambda: shoal.Planner(**made, obstacles=[5]), "an entry of obstacles is 5; it takes a dict"),
+                           (lambda: shoal.Plan([[0, 0]], [5]), "an entry of names is 5; it takes text")):
+            with self.assertRaisesRegex(shoal.InputError, f"^{says}"):
+                call()
+
+    def test_a_state_can_be_changed(self):
+        own = shoal.OwnState([0, 0])
+        own.position = (1, 2)
+        own.position[0] = 5
+        own.speed_m_s = numpy.float32(0.5)
+        self.assertEqual((own.position.tolist(), own.speed_m_s), ([5, 2], 0.5))
+
     def test_a_plan_is_padded_as_far_as_the_quality_of_a_run(self):
         sizes = {"rows": 1, "columns": 1}
         self.assertEqual(len(shoal.Plan.padded("square", **sizes)), 9)

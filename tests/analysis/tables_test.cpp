@@ -191,6 +191,23 @@ TEST(Tables, TakeMoreMarksThanThereAreLetters) {
   EXPECT_NE(print(table, text).find("^z n = 26.\n^aa n = 27.\n^ab n = 28.\n"), std::string::npos);
 }
 
+TEST(Tables, PartedForLatexHaveTheirNotesOnceBelowTheLastPart) {
+  Table table{.name = "t", .columns = {{"what"}}, .rows = {{"a"}}, .notes = {"Mean."}};
+  for (int k = 0; k < 10; ++k) {
+    table.columns.push_back({"a header of some " + std::to_string(k)});
+    table.rows[0].push_back(Estimate{.value = 1.0 + k, .n = 5, .failed = k == 0 || k == 9 ? 1 : 0});
+  }
+  const std::string printed = print(table, latex);
+  const std::string notes =
+      "    Mean.\\par\n    n = 5 unless marked.\\par\n"
+      "    \\mbox{\\textsuperscript{a}\\,n = 5, 1 failed.}\\quad\n  "
+      "\\end{minipage}\n\\end{table}\n";
+  EXPECT_TRUE(printed.ends_with(notes)) << printed;
+  EXPECT_GT(printed.find("\\footnotesize"), printed.rfind("\\usebox0\n")) << printed;
+  EXPECT_EQ(printed.find("\\textsuperscript{b}"), std::string::npos) << printed;
+  EXPECT_NE(printed.find("\\par\\medskip"), std::string::npos) << printed;
+}
+
 TEST(Tables, NeedNoNotes) {
   EXPECT_EQ(print(of(Estimate{1.5}), text), "what    x\na     1.5\n");
 }

@@ -8,6 +8,7 @@
 #include <future>
 
 #include "shoal/core/error.hpp"
+#include "tests/support/complaint_of.hpp"
 
 namespace shoal {
 namespace {
@@ -61,6 +62,21 @@ TEST_F(WholeFile, IsNothingWhereThereIsNoneOrAFolder) {
   EXPECT_EQ(read_whole_file(folder_ / "none"), std::nullopt);
   write_whole_file(folder_ / "empty", std::string());
   EXPECT_EQ(read_whole_file(folder_ / "empty"), "");
+}
+
+TEST_F(WholeFile, IsReadByteForByte) {
+  const std::string bytes("a\0b\r\n\xff", 6);
+  write_whole_file(folder_ / "a", bytes);
+  EXPECT_EQ(read_whole_file(folder_ / "a"), bytes);
+}
+
+TEST_F(WholeFile, IsReadUpToALimitWhichAFileWithoutAnEndExceeds) {
+  write_whole_file(folder_ / "a", text_);
+  EXPECT_EQ(read_whole_file(folder_ / "a", text_.size()), text_);
+  EXPECT_THROW(read_whole_file(folder_ / "a", text_.size() - 1), InputError);
+  EXPECT_EQ(tests::complaint_of([] { read_whole_file("/dev/zero"); }),
+            "/dev/zero: the file holds more than 64 MB, which is the most that is read; name "
+            "another file, or cut this one");
 }
 
 TEST_F(WholeFile, WritesIntoAPipe) {

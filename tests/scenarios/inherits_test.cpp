@@ -163,6 +163,18 @@ TEST_F(Inherits, CirclesAreRefusedAndTwoWaysToOneFileAreNot) {
   EXPECT_EQ(filled(top).files.size(), 3U);
 }
 
+TEST_F(Inherits, FilesThatMultiplyAreRefused) {
+  written("9.toml", "[ping]\nperiod_s = 4\n");
+  for (int i = 8; i >= 0; --i) {
+    const std::string next = std::to_string(i + 1) + ".toml";
+    written(std::to_string(i) + ".toml", "inherits = [\"" + next + "\", \"" + next + "\"]\n");
+  }
+  EXPECT_EQ(complaint(folder_.path() / "4.toml"), "");
+  const std::string why = complaint(folder_.path() / "0.toml");
+  EXPECT_NE(why.find(".toml:1: more than 256 files are inherited in all"), std::string::npos)
+      << why;
+}
+
 TEST_F(Inherits, ScenariosOfTheLibraryCanBeInherited) {
   const fs::path file =
       written("own.toml", "inherits = \"construction_square\"\n[trial]\nduration_s = 60\n");

@@ -1,6 +1,5 @@
 #include "shoal/analysis/experiments/store/store.hpp"
 
-#include <fmt/format.h>
 #include <sqlite3.h>
 
 #include <algorithm>
@@ -10,6 +9,8 @@
 #include <utility>
 
 #include "shoal/analysis/experiments/store/sqlite.hpp"
+#include "shoal/analysis/experiments/store/store_columns.hpp"
+#include "shoal/analysis/experiments/store/stored_rows.hpp"
 #include "shoal/core/error.hpp"
 
 namespace shoal::analysis {
@@ -17,7 +18,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// The columns that come before those of factors ("f:NAME") and measures ("NAME").
 constexpr const char* schema = R"(
   CREATE TABLE trial (
     trial_key TEXT PRIMARY KEY, trial_id TEXT NOT NULL, scenario_id TEXT NOT NULL,
@@ -33,19 +33,13 @@ constexpr const char* schema = R"(
 constexpr int schema_version = 2;
 constexpr int patience_ms = 5000;  // with a program that holds the file
 
-std::string quoted_name(const std::string& name) {
-  std::string text = "\"";
-  for (const char c : name) text += c == '"' ? std::string("\"\"") : std::string(1, c);
-  return text + '"';
-}
-
 }  // namespace
 
 /// The connection, and the columns it knows.
 struct Store::Database {
   sqlite3* connection = nullptr;
   fs::path file;
-  std::vector<std::string> factors, measures;
+  StoreColumns columns;
 
   KeptStatement insert, forget, add_series;
 
@@ -61,11 +55,6 @@ struct Store::Database {
     throw SystemError("cannot " + doing + " " + file.string() + ": " + last_error(connection));
   }
 
-  [[noreturn]] void refuse(const std::string& why) const {
-    throw InputError({file.string()},
-                     why + "; the file is damaged, move it away and run the study again");
-  }
-
   void run(const std::string& sql, const std::string& doing = "write") const {
     if (sqlite3_exec(connection, sql.c_str(), nullptr, nullptr, nullptr) != SQLITE_OK) fail(doing);
   }
@@ -74,11 +63,6 @@ struct Store::Database {
   void read_columns();
   void put(const StoredTrial& trial);
   void erase(const std::vector<std::string>& keys) const;
-  /// The statement that reads `names`, with `condition`, and what a row of it says.
-  std::string selecting(const std::vector<std::string>& names, const std::string& condition) const;
-  StoredTrial read(const Statement& select, const std::vector<std::string>& names) const;
-  scenarios::Series read_series(const Statement& select, int place, const std::string& name,
-                                const std::string& key) const;
   void add_columns(const std::string& list, std::vector<std::string>& known,
                    const std::vector<std::string>& wanted, const std::string& type);
 };
@@ -92,23 +76,18 @@ std::vector<std::string> column_list(sqlite3* connection, const std::string& lis
   return names;
 }
 
-std::string factor_column(const std::string& name) {
-  return quoted_name("f:" + name);
-}
-
 }  // namespace
 
 void Store::Database::require_tables() const {
   for (const char* table : {"trial", "series", "factor", "metric"}) {
     Statement find(connection, "SELECT 1 FROM sqlite_schema WHERE type = 'table' AND name = ?");
     find.bind(1, std::string(table));
-    if (!find.step()) refuse("it has no table " + std::string(table));
+    if (!find.step()) refuse_damaged(file, "it has no table " + std::string(table));
   }
 }
 
 void Store::Database::read_columns() {
-  factors = column_list(connection, "factor");
-  measures = column_list(connection, "metric");
+  columns = {column_list(connection, "factor"), column_list(connection, "metric")};
 }
 
 void Store::Database::add_columns(const std::string& list, std::vector<std::string>& known,
@@ -116,7 +95,7 @@ void Store::Database::add_columns(const std::string& list, std::vector<std::stri
   for (const std::string& name : wanted) {
     if (std::ranges::find(known, name) != known.end()) continue;
     run("ALTER TABLE trial ADD COLUMN " +
-        (list == "factor" ? factor_column(name) : quoted_name(name)) + " " + type);
+        (list == "factor" ? factor_column(name) : measure_column(name)) + " " + type);
     Statement entry(connection, "INSERT INTO " + list + " VALUES (?, ?)");
     entry.bind(1, name);
     entry.bind(2, static_cast<std::int64_t>(known.size()));
@@ -188,20 +167,17 @@ void Store::Database::put(const StoredTrial& trial) {
   std::vector<std::string> factor_names, measure_names;
   for (const auto& [name, label] : trial.factors) factor_names.push_back(name);
   for (const auto& [name, value] : trial.measures) measure_names.push_back(name);
-  add_columns("factor", factors, factor_names, "TEXT");
+  add_columns("factor", columns.factors, factor_names, "TEXT");
   // Without a type: a column of type REAL takes the sign from a zero.
-  add_columns("metric", measures, measure_names, "");
+  add_columns("metric", columns.measures, measure_names, "");
 
-  std::string columns =
-      "trial_key, trial_id, scenario_id, study_group, replication, seed, program, status, reason, "
-      "wall_s";
+  std::string names = columns_of_every_trial;
   std::string places = "?, ?, ?, ?, ?, ?, ?, ?, ?, ?";
-  for (const std::string& name : factor_names)
-    columns += ", " + factor_column(name), places += ", ?";
+  for (const std::string& name : factor_names) names += ", " + factor_column(name), places += ", ?";
   for (const std::string& name : measure_names)
-    columns += ", " + quoted_name(name), places += ", ?";
+    names += ", " + measure_column(name), places += ", ?";
   Statement& row = insert.ready(
-      connection, "INSERT OR REPLACE INTO trial (" + columns + ") VALUES (" + places + ")");
+      connection, "INSERT OR REPLACE INTO trial (" + names + ") VALUES (" + places + ")");
   row.bind(1, trial.key);
   row.bind(2, trial.id);
   row.bind(3, trial.scenario);
@@ -253,14 +229,13 @@ void Store::together(const std::function<void()>& work) {
   Database& db = *database_;
   // Inside other work, it is part of that.
   if (sqlite3_get_autocommit(db.connection) == 0) return work();
-  const std::vector<std::string> factors_before = db.factors, measures_before = db.measures;
+  const StoreColumns before = db.columns;
   try {
     Transaction transaction(db.connection);
     work();
     transaction.commit();
   } catch (...) {
-    db.factors = factors_before;
-    db.measures = measures_before;
+    db.columns = before;
     throw;
   }
 }
@@ -273,72 +248,12 @@ void Store::erase(const std::vector<std::string>& keys) {
   together([&] { database_->erase(keys); });
 }
 
-std::string Store::Database::selecting(const std::vector<std::string>& names,
-                                       const std::string& condition) const {
-  std::string columns =
-      "trial_key, trial_id, scenario_id, study_group, replication, seed, program, status, reason, "
-      "wall_s";
-  for (const std::string& name : factors) columns += ", " + factor_column(name);
-  for (const std::string& name : names) {
-    const bool known = std::ranges::find(measures, name) != measures.end();
-    columns += known ? ", " + quoted_name(name) : std::string(", NULL");
-  }
-  return "SELECT " + columns + " FROM trial" + condition;
-}
-
-StoredTrial Store::Database::read(const Statement& select,
-                                  const std::vector<std::string>& names) const {
-  StoredTrial trial;
-  trial.key = select.text(0);
-  int place = 1;
-  const auto require = [&](bool holds, const std::string& column, const char* what) {
-    if (!holds) refuse("the trial " + trial.key + ": " + column + " holds no " + what);
-  };
-  const auto text = [&](const char* column) {
-    require(select.holds_text(place), column, "text");
-    return select.text(place++);
-  };
-  const auto integer = [&](const char* column) {
-    require(select.holds_integer(place), column, "integer");
-    return select.integer(place++);
-  };
-  trial.id = text("trial_id");
-  trial.scenario = text("scenario_id");
-  trial.group = text("study_group");
-  const std::int64_t replication = integer("replication");
-  require(std::in_range<int>(replication) && replication >= 0, "replication",
-          "integer of 0 or more");
-  trial.replication = static_cast<int>(replication);
-  trial.seed = integer("seed");
-  trial.program = text("program");
-  const std::string status = text("status");
-  require(status == "done" || status == "failed", "status", "\"done\" and no \"failed\"");
-  if (status == "failed") {
-    require(select.holds_text(place) && !select.text(place).empty(), "reason", "text");
-    trial.failure = select.text(place);
-  }
-  ++place;
-  require(select.holds_number(place), "wall_s", "number");
-  trial.wall_s = *select.number(place++);
-  for (const std::string& name : factors) {
-    require(select.null(place) || select.holds_text(place), "f:" + name, "text");
-    if (!select.null(place)) trial.factors.emplace_back(name, select.text(place));
-    ++place;
-  }
-  for (const std::string& name : names) {
-    require(select.null(place) || select.holds_number(place), name, "number");
-    trial.measures.emplace_back(name, select.number(place++));
-  }
-  return trial;
-}
-
 void Store::visit(const std::function<void(StoredTrial&)>& visitor,
                   const std::optional<std::vector<std::string>>& measures) const {
   const Database& db = *database_;
-  const std::vector<std::string>& wanted = measures ? *measures : db.measures;
-  Statement select(db.connection, db.selecting(wanted, ""));
-  while (select.step()) {
-    StoredTrial trial = db.read(select, wanted);
+  TrialRows rows(db.connection, db.file, db.columns, measures ? *measures : db.columns.measures);
+  while (rows.step()) {
+    StoredTrial trial = rows.trial();
     visitor(trial);
   }
 }
@@ -352,50 +267,23 @@ std::vector<StoredTrial> Store::trials(
 
 std::optional<StoredTrial> Store::find(const std::string& key) const {
   const Database& db = *database_;
-  Statement select(db.connection, db.selecting(db.measures, " WHERE trial_key = ?"));
-  select.bind(1, key);
-  if (!select.step()) return std::nullopt;
-  return db.read(select, db.measures);
-}
-
-/// A series in the columns from `place` on: unit, meaning, time_s, numbers.
-scenarios::Series Store::Database::read_series(const Statement& select, int place,
-                                               const std::string& name,
-                                               const std::string& key) const {
-  const auto refuse_it = [&](const std::string& why) {
-    refuse("the series " + name + " of the trial " + key + " has " + why);
-  };
-  if (!select.holds_numbers(place + 2)) refuse_it("no numbers in time_s");
-  if (!select.holds_numbers(place + 3)) refuse_it("no numbers in numbers");
-  scenarios::Series series{name, select.text(place), select.text(place + 1),
-                           select.numbers(place + 2), select.numbers(place + 3)};
-  if (series.time_s.size() != series.values.size()) {
-    refuse_it(
-        fmt::format("{} instants and {} numbers", series.time_s.size(), series.values.size()));
-  }
-  return series;
+  TrialRows rows(db.connection, db.file, db.columns, db.columns.measures, key);
+  if (!rows.step()) return std::nullopt;
+  return rows.trial();
 }
 
 std::vector<scenarios::Series> Store::series_of(const std::string& key) const {
-  Statement select(database_->connection,
-                   "SELECT name, unit, meaning, time_s, numbers FROM series WHERE trial_key = ? "
-                   "ORDER BY name");
-  select.bind(1, key);
+  SeriesRows rows(database_->connection, database_->file, SeriesRows::Of::trial, key);
   std::vector<scenarios::Series> all;
-  while (select.step()) all.push_back(database_->read_series(select, 1, select.text(0), key));
+  while (rows.step()) all.push_back(rows.series());
   return all;
 }
 
 std::vector<std::pair<std::string, scenarios::Series>> Store::series(
     const std::string& name) const {
-  Statement select(database_->connection,
-                   "SELECT trial_key, unit, meaning, time_s, numbers FROM series WHERE name = ?");
-  select.bind(1, name);
+  SeriesRows rows(database_->connection, database_->file, SeriesRows::Of::name, name);
   std::vector<std::pair<std::string, scenarios::Series>> all;
-  while (select.step()) {
-    const std::string key = select.text(0);
-    all.emplace_back(key, database_->read_series(select, 1, name, key));
-  }
+  while (rows.step()) all.emplace_back(rows.key(), rows.series());
   return all;
 }
 
@@ -408,7 +296,7 @@ std::vector<std::string> Store::keys_with_series(const std::string& name) const 
 }
 
 std::vector<std::string> Store::measure_names() const {
-  return database_->measures;
+  return database_->columns.measures;
 }
 
 std::vector<std::string> Store::series_names() const {

@@ -66,12 +66,12 @@ def study_dataset(folder: str | os.PathLike[str], group: str | None = None) -> x
 
 def tables(folder: str | os.PathLike[str]) -> dict[str, _shoal.Table]:
     """The tables of a study, by name, from what is stored."""
-    return {table.name: table for table in _shoal.tables(_arguments.path(folder, "folder"))}
+    return {table.name: table for table in _swept(folder).tables()}
 
 
 def write_tables(folder: str | os.PathLike[str]) -> None:
     """Writes them, and that of the claims, into its folder `tables`, as LaTeX, CSV and Markdown."""
-    _shoal.write_tables(_arguments.path(folder, "folder"))
+    _swept(folder).write_tables()
 
 
 def claims(folder: str | os.PathLike[str]) -> pandas.DataFrame:
@@ -82,10 +82,14 @@ def claims(folder: str | os.PathLike[str]) -> pandas.DataFrame:
     columns = ["statement", "section", "claim", "column", "statement_verdict", "verdict", "contrast",
                "contrast_verdict", "claimed", "n", "trials", "never_reached", "estimate", "low", "high",
                "p_holds", "p_fails", "corrected_p"]
-    return pandas.DataFrame(_shoal.claims(_arguments.path(folder, "folder")), columns=columns)
+    return pandas.DataFrame(_swept(folder).claims(), columns=columns)
 
 
 def study_report(folder: str | os.PathLike[str]) -> pathlib.Path:
     """Writes report.html into the folder of a study, and returns its path."""
-    _shoal.study_report(_arguments.path(folder, "folder"))
+    _swept(folder).write_report()
     return pathlib.Path(folder) / "report.html"
+
+
+def _swept(folder: str | os.PathLike[str]) -> _shoal.SweptStudy:
+    return _shoal.SweptStudy(_arguments.path(folder, "folder"))

@@ -27,7 +27,7 @@ import uuid
 from typing import TYPE_CHECKING, Any, Callable, Mapping
 
 from . import _arguments, _members, _potentials, _shoal
-from ._studies import folder_of, study_report, trials, write_tables
+from ._studies import folder_of, trials
 
 if TYPE_CHECKING:
     import pandas
@@ -52,20 +52,26 @@ def sweep(study: str | os.PathLike[str] | Mapping[str, Any], client: Client,
     """
     batch = _arguments.whole(batch, "batch", 1)
     progress = _arguments.function(progress, "progress")
-    root = _arguments.source(study, "study")
-    folder = folder_of(root, out)
-    open_sweep = _shoal.OpenSweep(root, folder, _arguments.whole(replications, "replications", 0),
-                                  _arguments.flag(rerun_changed, "rerun_changed"),
-                                  _arguments.flag(retry_failed, "retry_failed"), _Threads(client).now())
-    run(open_sweep, client, batch, progress)
-    open_sweep.end()
-    write_tables(folder)
+    open_sweep, folder = opened(study, client, out, replications, rerun_changed, retry_failed)
+    run(open_sweep, client, batch, progress and (lambda: progress(open_sweep.progress())))
+    _shoal.SweptStudy(folder).write_tables()
     return trials(folder)
 
 
+def opened(study: str | os.PathLike[str] | Mapping[str, Any], client: Client,
+           out: str | os.PathLike[str] | None, replications: int, rerun_changed: bool,
+           retry_failed: bool) -> tuple[_shoal.OpenSweep, str]:
+    """The sweep of a study, and its folder."""
+    root = _arguments.source(study, "study")
+    folder = folder_of(root, out)
+    return _shoal.OpenSweep(root, folder, _arguments.whole(replications, "replications", 0),
+                            _arguments.flag(rerun_changed, "rerun_changed"),
+                            _arguments.flag(retry_failed, "retry_failed"), _Threads(client).now()), folder
+
+
 def run(open_sweep: _shoal.OpenSweep, client: Client, batch: int,
-        progress: Callable[[dict[str, Any]], None] | None) -> None:
-    """Has the trials of an open sweep run, and stores them."""
+        stored: Callable[[], None] | None = None) -> None:
+    """Has the trials of an open sweep run, and stores them. stored: called after each task."""
     from distributed import as_completed
     from distributed.scheduler import KilledWorker
 
@@ -100,13 +106,14 @@ def run(open_sweep: _shoal.OpenSweep, client: Client, batch: int,
                 raise _shoal.SystemError("the scheduler of dask is lost" + AGAIN)
             for index, answer in zip(batches.pop(future.key), found):
                 open_sweep.store(index, answer)
-            if progress is not None:
-                progress(open_sweep.progress())
+            if stored is not None:
+                stored()
     finally:
         # A scheduler that is lost knows of no task any more, and does not answer.
         with contextlib.suppress(OSError):
             for future in list(done.futures):
                 future.cancel()
+    open_sweep.end()
 
 
 def _without_package(client: Client, error: ModuleNotFoundError) -> str:
@@ -171,38 +178,27 @@ def _main() -> int:
         print(f"shoal: no worker has joined {wanted.address} yet; waiting for dask-worker {wanted.address}",
               file=sys.stderr, flush=True)
 
-    last: dict[str, Any] = {}
-
-    def line(counts: dict[str, Any]) -> None:
-        last.update(counts)
-        if shown:
-            print(f"\r{counts['stored'] + counts['done']} of {counts['planned']} trials, "
-                  f"{counts['failed']} failed\033[K", end="", file=sys.stderr, flush=True)
-
     try:
         with client:
-            sweep(wanted.study, client, wanted.out, batch=wanted.batch,
-                  replications=wanted.replications, rerun_changed=wanted.rerun_changed,
-                  retry_failed=wanted.retry_failed,
-                  progress=line)
+            open_sweep, folder = opened(wanted.study, client, wanted.out, wanted.replications,
+                                        wanted.rerun_changed, wanted.retry_failed)
+
+            def line() -> None:
+                print(f"\r{open_sweep.progress_text()}\033[K", end="", file=sys.stderr, flush=True)
+
+            run(open_sweep, client, wanted.batch, line if shown else None)
+        if shown:
+            print("\r\033[K", end="", file=sys.stderr)
+        print(*open_sweep.summary(), sep="\n")
+        study = _shoal.SweptStudy(folder)
+        study.write_tables()
+        study.write_report()
     except _shoal.InputError as error:
         return _complain(error, 2)
     except _shoal.SystemError as error:
         return _complain(error, 1)
     except KeyboardInterrupt:
         return _complain("interrupted" + AGAIN, 1)
-    if shown:
-        print("\r\033[K", end="", file=sys.stderr)
-    folder = folder_of(wanted.study, wanted.out)
-    if last:
-        print(f"{folder}: {last['stored'] + last['done']} of {last['planned']} trials are stored, "
-              f"{last['done']} of them run now in {last['elapsed_s']:.1f} s")
-        if last["failed"]:
-            print(f"{last['failed']} failed; the first: {last['first_failure']}; --retry-failed "
-                  "runs them again")
-    else:
-        print(f"{folder}: all trials are stored already")
-    study_report(folder)
     print(f"written: {folder}/tables, {folder}/report.html")
     return 0
 

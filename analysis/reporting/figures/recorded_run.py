@@ -1,5 +1,6 @@
 """What a folder of `shoal run` holds: scenario.toml, run.nc and series.nc."""
 
+import contextlib
 import math
 import tomllib
 
@@ -25,10 +26,10 @@ class RecordedRun:
                             "with trial.record_every_s above 0")
         self.scenario = tomllib.loads((folder / "scenario.toml").read_text(encoding="utf-8"))
         self._file = folder / "run.nc"
-        with netCDF4.Dataset(self._file) as record:
+        with opened(self._file) as record:
             self._vehicles = vehicles_of(record.variables, self._file)
         self.time_s = self._vehicles.pop("time")
-        with netCDF4.Dataset(folder / "series.nc") as record:
+        with opened(folder / "series.nc") as record:
             self._series = series_of(record.variables, folder / "series.nc")
 
     def by_vehicle(self, name):
@@ -68,6 +69,13 @@ class RecordedRun:
         x, y = self.waypoint
         away = numpy.hypot(self.by_vehicle("x") - x, self.by_vehicle("y") - y)
         return (away <= self.scenario["waypoint"]["radius_m"]).any(axis=0)
+
+
+@contextlib.contextmanager
+def opened(file):
+    """By a name of the system: the library would change one with backslashes."""
+    with open(file, "rb") as content, netCDF4.Dataset(f"/proc/self/fd/{content.fileno()}") as record:
+        yield record
 
 
 def vehicles_of(variables, file):

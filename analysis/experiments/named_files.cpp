@@ -1,4 +1,4 @@
-#include "named_files.hpp"
+#include "shoal/analysis/experiments/named_files.hpp"
 
 #include <algorithm>
 #include <vector>
@@ -9,28 +9,27 @@
 #include "shoal/scenarios/scenario.hpp"
 #include "shoal/scenarios/toml_file.hpp"
 
-namespace shoal::program {
+namespace shoal::analysis {
 namespace {
 
 namespace fs = std::filesystem;
 
-bool ships(const std::vector<std::string>& names, const std::string& name) {
+bool is_shipped(const std::vector<std::string>& names, const std::string& name) {
   return !fs::exists(name) && std::ranges::find(names, name) != names.end();
 }
 
 /// A base and what is varied, which no scenario has.
-bool is_study(const Setting& root) {
+bool varies_a_base(const Setting& root) {
   return root.find("group") || root.find("factor") ||
-         (root.find("scenario") && analysis::looks_like_a_study(root));
+         (root.find("scenario") && looks_like_a_study(root));
 }
 
 /// Tables of a scenario, and nothing of a study.
-bool is_scenario(const Setting& root) {
+bool has_scenario_tables(const Setting& root) {
   const Schema& scenario = schema_of<scenarios::Scenario>();
-  return !analysis::looks_like_a_study(root) &&
-         std::ranges::any_of(root.table(), [&](const auto& entry) {
-           return scenario.find(entry.first) != nullptr;
-         });
+  return !looks_like_a_study(root) && std::ranges::any_of(root.table(), [&](const auto& entry) {
+    return scenario.find(entry.first) != nullptr;
+  });
 }
 
 }  // namespace
@@ -44,31 +43,31 @@ void require_no_claims(const Setting& root, const fs::path& file) {
 }
 
 fs::path scenario_file(const std::string& name_or_path) {
-  if (ships(analysis::library_studies(), name_or_path)) {
+  if (is_shipped(library_studies(), name_or_path)) {
     throw InputError('"' + name_or_path + "\" is a study; shoal sweep " + name_or_path +
                      " runs its trials");
   }
   fs::path file = scenarios::find_scenario(name_or_path);
   const Setting root = scenarios::read_toml(file);
   require_no_claims(root, file);
-  if (is_study(root)) {
+  if (varies_a_base(root)) {
     throw InputError({file.string(), 0}, "this is a study; shoal sweep runs its trials");
   }
   return file;
 }
 
 fs::path study_file(const std::string& name_or_path) {
-  if (ships(scenarios::library_scenarios(), name_or_path)) {
+  if (is_shipped(scenarios::library_scenarios(), name_or_path)) {
     throw InputError('"' + name_or_path + "\" is a scenario; shoal run " + name_or_path +
                      " runs it");
   }
-  fs::path file = analysis::find_study(name_or_path);
+  fs::path file = find_study(name_or_path);
   const Setting root = scenarios::read_toml(file);
   require_no_claims(root, file);
-  if (is_scenario(root)) {
+  if (has_scenario_tables(root)) {
     throw InputError({file.string(), 0}, "this is a scenario; shoal run runs it");
   }
   return file;
 }
 
-}  // namespace shoal::program
+}  // namespace shoal::analysis
