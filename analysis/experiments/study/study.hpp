@@ -84,7 +84,7 @@ struct ComparisonRequest {
   std::optional<std::string> complaint() const;
 };
 
-/// A table of sensitivity indices of a group with the design `saltelli` or `morris`.
+/// A table of sensitivities to the factors of a group, whose design was made for that.
 struct SensitivityRequest {
   std::string name, caption;
   std::string group;
