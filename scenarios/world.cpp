@@ -112,7 +112,7 @@ void World::run(std::span<Observer* const> observers) {
     throw InputError(scenario_.stop.setting().origin,
                      "stop.kind is " + scenario_.stop.kind() +
                          ", and nothing that observes this world measures the formation quality; "
-                         "run it with its measures, or set stop.kind = \"duration\"");
+                         "run it with its measures, or leave stop out");
   }
   // As many threads as asked for, also on a machine with fewer cores.
   const tbb::global_control allowed(tbb::global_control::max_allowed_parallelism,

@@ -70,6 +70,7 @@ class World {
   }
   const formations::Behaviour& behaviour() const { return *behaviour_; }
   const formations::Guidance& guidance() const { return *guidance_; }
+  const StopRule& stop() const { return *stop_; }
   bool lost(std::size_t i) const { return lost_s_[i] >= 0.0; }
   std::size_t lost_count() const { return lost_count_; }
   const Logbook& logbook(std::size_t i) const { return logbooks_[i]; }
