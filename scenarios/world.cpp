@@ -72,7 +72,8 @@ World::World(const Scenario& scenario, int threads)
   }
 
   end_tick_ = ticks_of(scenario.trial.duration_s, tick_s, "trial.duration_s");
-  guidance_ticks_ = ticks_of(guidance_->period_s(), tick_s, "guidance.drift.period_s");
+  guidance_ticks_ =
+      ticks_of(guidance_->period_s(), tick_s, "guidance." + scenario.guidance.kind() + ".period_s");
   planner_ticks_ = scenario.planner.update == PlannerOptions::Update::tick
                        ? ticks_of(scenario.planner.period_s, tick_s, "planner.period_s")
                        : 0;
