@@ -251,8 +251,7 @@ int shoal_program(int argc, char** argv) {
       ->delimiter(',')
       ->required();
   solve_command
-      ->add_option("--set", solve.sets,
-                   "FAMILY.SOLVER.OPTION=VALUE, as solver.newton.x_tolerance_m=1e-6")
+      ->add_option("--set", solve.sets, "FAMILY.SOLVER.OPTION=VALUE (shoal describe SOLVER)")
       ->expected(1)
       ->take_all();
   solve_command->add_option("--reference", solve.reference,
