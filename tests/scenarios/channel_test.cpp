@@ -122,12 +122,13 @@ TEST(Channel, AModemMeasuresNoRangeBelowItsShortest) {
 
 TEST(Channel, LosesTheShareOfPingsAskedFor) {
   PingOptions lossy;
-  lossy.loss_probability = 0.3;
+  lossy.loss.setting().tables.at_or_new("independent").at_or_new("probability").value = 0.3;
   const Channel channel(lossy, RandomStreams(3));
   int lost = 0;
-  for (std::uint32_t k = 0; k < 10000; ++k) lost += channel.loses({0, 0, 0, 0.0, 1, k}, 2) ? 1 : 0;
+  for (std::uint32_t k = 0; k < 10000; ++k)
+    lost += channel.loses({0, 0, 0, 0.0, 1, k}, 2, 100.0) ? 1 : 0;
   EXPECT_NEAR(lost / 10000.0, 0.3, 0.015);
-  EXPECT_FALSE(Channel(PingOptions{}, RandomStreams(3)).loses({0, 0, 0, 0.0, 1, 0}, 2));
+  EXPECT_FALSE(Channel(PingOptions{}, RandomStreams(3)).loses({0, 0, 0, 0.0, 1, 0}, 2, 100.0));
 }
 
 TEST(Channel, WithoutIdsPingsAreAnonymous) {

@@ -178,7 +178,7 @@ TEST(World, EveryVehicleMayBeLost) {
 }
 
 TEST(World, StaggeredPingsAreSpreadOverThePeriod) {
-  World world(scenario_of(with(small, {"ping.schedule=staggered", "trial.duration_s=29"})));
+  World world(scenario_of(with(small, {"ping.schedule.kind=staggered", "trial.duration_s=29"})));
   std::vector<std::int64_t> sent;
   Looker looker(1.0, [&](const World& w) {
     std::int64_t all = 0;
