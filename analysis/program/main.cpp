@@ -261,7 +261,7 @@ int shoal_program(int argc, char** argv) {
                    "metres within which two minima are the same")
       ->check(at_least_0)
       ->capture_default_str();
-  solve_command->add_option("--format", solve.format, "text, csv, markdown, latex or html")
+  solve_command->add_option("--format", solve.format, "of the table (shoal list table_formats)")
       ->capture_default_str();
   solve_command->add_option("--profiles", solve.profiles,
                             "CSV file for Dolan and Moré's performance profiles; progress curves "

@@ -26,9 +26,10 @@ void write_all(const StudyResults& results, const std::vector<analysis::Table>& 
                const Judgement& claims, const std::string& folder) {
   const std::size_t written = analysis::write_tables(tables, claims, folder);
   print_state(results);
-  fmt::print("written: {}/tables, {} tables as .tex, .csv and .md\n", folder, written);
+  fmt::print("written: {}/tables, {} tables as {}\n", folder, written,
+             listed(analysis::file_endings_of_tables()));
   for (const analysis::Table& table : tables) {
-    const auto unknown = analysis::unknown_to_latex(print(table, analysis::TableFormat::latex));
+    const auto unknown = analysis::unknown_to_latex(analysis::as_latex(table));
     if (unknown.empty()) continue;
     fmt::print("tables/{}.tex needs XeLaTeX or LuaLaTeX, for {}\n", table.name, listed(unknown));
   }
@@ -88,8 +89,7 @@ void tables(const std::string& folder, bool summary) {
   // After a sweep, the first table: the one that the study begins with.
   const std::size_t shown = summary ? std::min<std::size_t>(1, tables.size()) : tables.size();
   for (std::size_t i = 0; i < shown; ++i) {
-    fmt::print("{}:\n{}\n", tables[i].name,
-               analysis::print(tables[i], analysis::TableFormat::text));
+    fmt::print("{}:\n{}\n", tables[i].name, analysis::as_text(tables[i]));
   }
   write_all(results, tables, claims, folder);
 }

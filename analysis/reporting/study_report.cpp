@@ -168,9 +168,8 @@ void write_study_report(const fs::path& folder) {
             {"manifest", stored_manifest(folder)}};
   data["tables"] = Json::array();
   for (const Table& table : study_tables(results)) {
-    data["tables"].push_back({{"name", table.name},
-                              {"html", print(table, TableFormat::html)},
-                              {"points", charts(table)}});
+    data["tables"].push_back(
+        {{"name", table.name}, {"html", as_html(table)}, {"points", charts(table)}});
   }
   data["files"] = written_tables(folder / "tables");
   data["claims"] = claims(judged_claims(results, folder));
