@@ -20,19 +20,25 @@ SOURCES = {".cpp", ".hpp", ".py", ".pyi", ".js", ".mjs", ".html"}
 NOT_OURS = {"library", "sets", "uPlot"}
 # What scenarios of earlier versions wrote, beside what is written now: history, not use.
 HISTORY = {"scenarios/moved_keys.cpp"}
+# What looks like a member in use, and is another thing of that name.
+HOMONYMS = {("analysis/reporting/page/chart_groups.js", "mean"),  # of vehicles, in a series' name
+            ("analysis/reporting/page/gestures.js", "text")}  # the type of a field of the page
 # Their members are never chosen by name, and share their names with what they measure.
 NOT_CHOSEN = {"measure", "evaluation"}
+LIBRARY = {"scenario", "set", "study"}  # listed beside families
+MEMBER = re.compile(r"  (?! )(.{26,}?) ")  # a column of 26 letters, or more
 
 TEXT = re.compile(r'"((?:[^"\\\n]|\\.)*)"|\'((?:[^\'\\\n]|\\.)*)\'')
 DOCUMENTATION = re.compile(r'^[ \t]*r?"""(?:.|\n)*?"""', re.MULTILINE)
 PYTHON_COMMENT = re.compile(r"(?<!['\"])#[^'\"\n]*$", re.MULTILINE)
 COMMENT = re.compile(r"(?<![:\"'])//.*$", re.MULTILINE)
 DEFAULT = re.compile(r"(?:\bChoice<[\w:]+>\s+\w+\s*\{|[^=!<>]=)\s*$")
-USED = {  # what stands before a text that is a name in use, or behind it
-    "before": re.compile(r"(?:[=!]=\s*|\bcase\s+|\b(?:not\s+)?in\s*[\[({]\s*|\b(?:make|posed|instance\(\)\.find)\(\s*"
-                         r"|\bChoice<[\w:]+>\s*[({]\s*|\b(?:options|behaviour|settings?)\[\s*)$"),
-    "after": re.compile(r"\s*(?:[=!]==?)"),
-}
+# What stands before a text that is a name in use, or behind it.
+BEFORE = re.compile(r"(?:[=!]=\s*|\bcase\s+|\bin\s*[\[({]\s*"
+                    r"|\b(?:make|posed|instance\(\)\.find)\(\s*|\bChoice<[\w:]+>\s*[({]\s*"
+                    r"|\b(?:options|behaviour|settings?)\[\s*)$")
+LOOP = re.compile(r"\bfor\s+[\w, ()]+\bin\s*[\[({]\s*$")
+AFTER = re.compile(r"\s*(?:[=!]==?)")
 OF_A_LIST = re.compile(r"\s*,\s*$")
 
 
@@ -46,14 +52,14 @@ class Member:
 
     @property
     def is_ordinary(self):
-        return not re.search(r"[_.]", self.name)
+        return not re.search(r"[_. ]", self.name)
 
     @property
     def is_chosen(self):
         return bool(self.families - NOT_CHOSEN)
 
     def owns(self, path):
-        """A file that registers it, its header or its Python beside that, and those called after it."""
+        """A file that registers it, and what stands beside that and is called after either."""
         stem = path.stem.lstrip("_")
         return any((path.parent == file.parent or file.parent in path.parents)
                    and (stem.startswith(file.stem) or stem.startswith(self.name.split(".")[0]))
@@ -67,8 +73,8 @@ def listed(program):
     for line in done.stdout.splitlines():
         if match := re.match(r"(\w+): ", line):
             family = match[1]
-        elif family not in ("scenario", "set", "study") and (match := re.match(r"  ([\w.]+) ", line)):
-            names[match[1]].add(family)
+        elif family not in LIBRARY and (match := MEMBER.match(line)):
+            names[match[1].rstrip()].add(family)
     return names
 
 
@@ -117,7 +123,7 @@ def named(code, members, keys):
         before, after = code[:match.start()][-60:], code[match.end():match.end() + 20]
         member = members.get(text)
         if member and not DEFAULT.search(before):
-            used = USED["before"].search(before) or USED["after"].match(after)
+            used = AFTER.match(after) or (BEFORE.search(before) and not LOOP.search(before))
             beside = (before_it and OF_A_LIST.fullmatch(code[before_it[0]:match.start()])
                       and member.families & before_it[1].families - NOT_CHOSEN)
             if not member.is_ordinary or (member.is_chosen and (used or beside)):
@@ -143,30 +149,35 @@ def complaints(texts, members):
             continue
         code = code_of(path, text)
         for place, member, found in named(code, members, keys):
-            if not member.owns(path):
+            if not member.owns(path) and (str(path), found) not in HOMONYMS:
                 line = code[:place].count("\n") + 1
-                yield (f"{path}:{line}: \"{found}\" names {member.name} ({', '.join(sorted(member.families))}), "
-                       f"which is registered in {', '.join(sorted(map(str, member.files)))}")
+                families, files = (", ".join(sorted(map(str, each)))
+                                   for each in (member.families, member.files))
+                yield (f"{path}:{line}: \"{found}\" names {member.name} ({families}), which is "
+                       f"registered in {files}")
 
 
 def self_test():
     own, other = pathlib.Path("formations/guidances/drift.cpp"), pathlib.Path("scenarios/world.cpp")
-    names = {"drift": {"guidance"}, "circle": {"obstacle"}, "ellipse": {"obstacle"}, "k_nearest": {"selection"}}
+    names = {"drift": {"guidance"}, "circle": {"obstacle"}, "ellipse": {"obstacle"},
+             "k_nearest": {"selection"}}
     registers = 'const Register<X, Y> registered{"%s", ""};\n'
     texts = {own: registers % "drift", pathlib.Path("a.cpp"): registers % "circle",
-             pathlib.Path("b.cpp"): registers % "ellipse", pathlib.Path("c.cpp"): registers % "k_nearest",
+             pathlib.Path("b.cpp"): registers % "ellipse",
+             pathlib.Path("c.cpp"): registers % "k_nearest",
              pathlib.Path("k.cpp"): 'o.choice("guidance", &S::guidance, "");'}
     members = members_of(names, texts)
 
     def wrong(line, path=other):
         return len(list(complaints({**texts, path: line}, members)))
 
-    for line in ('if (kind == "circle")', 'f("guidance.drift.period_s")', 'known{"circle", "ellipse"}',
-                 'f("k_nearest")', r'"set guidance.kind = \"drift\""', 'make("circle", x)',
-                 'Choice<Obstacle>("circle").make()', 'options["drift"]', 'if kind in ("circle", x):'):
+    for line in ('if (kind == "circle")', 'f("guidance.drift.period_s")', 'f("k_nearest")',
+                 'known{"circle", "ellipse"}', r'"set guidance.kind = \"drift\""',
+                 'Choice<Obstacle>("circle").make()', 'make("circle", x)', 'options["drift"]',
+                 'if kind in ("circle", x):'):
         assert wrong(line) >= 1, line
-    for line in ('Choice<Obstacle> shape{"circle"};', 'f("circle")', '// kind == "circle"', 'x = "k_nearest"',
-                 'o.number("drift", x)'):
+    for line in ('Choice<Obstacle> shape{"circle"};', 'f("circle")', '// kind == "circle"',
+                 'x = "k_nearest"', 'o.number("drift", x)', 'for x in ("circle", "square"):'):
         assert wrong(line) == 0, line
     assert wrong('kind == "drift"', own) == 0
     assert wrong('kind == "drift"', own.with_suffix(".hpp")) == 0

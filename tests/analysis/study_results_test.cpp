@@ -83,7 +83,7 @@ TEST_F(Stored, ATableShowsNAndFailuresAndTheBestOnlyIfATestTellsIt) {
   request.measures = {"energy_mean_wh"};
   request.best = Best::lowest;
   request.compare = "behaviour";
-  request.test = PairedTest::paired_t;
+  request.test = "paired_t";
   const Table table = cell_table(request, all);
   ASSERT_EQ(table.rows.size(), 2u);
   const auto& best = std::get<Estimate>(table.rows[0][1]);
@@ -96,7 +96,7 @@ TEST_F(Stored, ATableShowsNAndFailuresAndTheBestOnlyIfATestTellsIt) {
   EXPECT_FALSE(std::get<Estimate>(table.rows[0][2]).best);  // nothing to compare with
 
   // Of five replications no sign-flip test reaches 5 % two-sided: 2 / 32.
-  request.test = PairedTest::sign_flip;
+  request.test = "sign_flip";
   EXPECT_FALSE(std::get<Estimate>(cell_table(request, all).rows[0][1]).best);
 }
 
