@@ -100,42 +100,6 @@ bool describe_part(const std::string& name, std::vector<std::string>& known) {
   return false;
 }
 
-/// A family, or FAMILY.MEMBER and what follows: the key that chooses it is another way to say it.
-bool describe_family(const std::string& name, std::vector<std::string>& known) {
-  const std::string first = name.substr(0, name.find('.'));
-  for (const RegistryBase* family : families()) {
-    known.push_back(family->family());
-    if (first != family->family()) continue;
-    const Schema& scenario = schema_of<scenarios::Scenario>();
-    const std::string key = key_of(*family, scenario);
-    if (first == name || (key.empty() && name == first + ".kind")) {
-      list(first);
-      if (!key.empty()) fmt::print("chosen by {}.kind\n", key);
-    } else if (!key.empty()) {
-      print_key(scenario, key + name.substr(first.size()));
-    } else {
-      const Option choice{.name = first, .meaning = family->meaning(), .choice = family};
-      print_key(Schema{{choice}, {}, "a scenario"}, name);
-    }
-    return true;
-  }
-  return false;
-}
-
-bool describe_inherits(const std::string& name, std::vector<std::string>& known) {
-  known.emplace_back(scenarios::inherits_key);
-  if (name != scenarios::inherits_key) return false;
-  fmt::print(
-      "{}\n    whose settings hold where the scenario says nothing; later ones before earlier "
-      "ones\n"
-      "    takes the name of a set or scenario, a file, or a list of these; sets are\n",
-      name);
-  for (const std::string& set : scenarios::library_sets()) {
-    fmt::print("      {:<26} {}\n", set, scenarios::set_summary(set));
-  }
-  return true;
-}
-
 /// The keys of a schema, at any depth, that end with this name. `above`: the families whose
 /// members' options are being looked through, which may choose one another.
 void find_keys(const Schema& schema, const std::string& path, const std::string& name,
@@ -165,6 +129,46 @@ bool describe_last_name(const std::string& name) {
   std::vector<std::string> ignored;
   for (const std::string& key : of_parts) describe_part(key, ignored);
   return !of_scenarios.empty() || !of_parts.empty();
+}
+
+/// A family, or FAMILY.MEMBER and what follows: the key that chooses it is another way to say it.
+bool describe_family(const std::string& name, std::vector<std::string>& known) {
+  const std::string first = name.substr(0, name.find('.'));
+  for (const RegistryBase* family : families()) {
+    known.push_back(family->family());
+    if (first != family->family()) continue;
+    const Schema& scenario = schema_of<scenarios::Scenario>();
+    const std::string key = key_of(*family, scenario);
+    if (first == name || (key.empty() && name == first + ".kind")) {
+      list(first);
+      if (!key.empty()) {
+        fmt::print("chosen by {}.kind\n", key);
+      } else {
+        describe_last_name(first);  // an option of studies, which take members without options
+      }
+    } else if (!key.empty()) {
+      print_key(scenario, key + name.substr(first.size()));
+    } else {
+      const Option choice{.name = first, .meaning = family->meaning(), .choice = family};
+      print_key(Schema{{choice}, {}, "a scenario"}, name);
+    }
+    return true;
+  }
+  return false;
+}
+
+bool describe_inherits(const std::string& name, std::vector<std::string>& known) {
+  known.emplace_back(scenarios::inherits_key);
+  if (name != scenarios::inherits_key) return false;
+  fmt::print(
+      "{}\n    whose settings hold where the scenario says nothing; later ones before earlier "
+      "ones\n"
+      "    takes the name of a set or scenario, a file, or a list of these; sets are\n",
+      name);
+  for (const std::string& set : scenarios::library_sets()) {
+    fmt::print("      {:<26} {}\n", set, scenarios::set_summary(set));
+  }
+  return true;
 }
 
 }  // namespace

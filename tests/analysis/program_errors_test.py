@@ -269,7 +269,7 @@ BAD_ARGUMENTS = [
     (["solve", "ok.toml", "--solvers", "newtn"],
      ['there is no solver "newtn"; did you mean "newton"?']),
     (["solve", "ok.toml", "--solvers", "newton", "--format", "pdf"],
-     ['there is no format "pdf"', "text, csv, markdown, latex and html"]),
+     ['there is no format "pdf"', "csv, html, latex, markdown and text"]),
     (["solve", "ok.toml", "--solvers", "newton", "--set", "newton.max_evaluations=3"],
      ['there is no family of solvers "newton"', "known are solver, registration and matching"]),
     (["solve", "ok.toml", "--solvers", "newton", "--set", "solver.newton.max_evaluation=3"],
