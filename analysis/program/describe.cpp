@@ -100,6 +100,58 @@ bool describe_part(const std::string& name, std::vector<std::string>& known) {
   return false;
 }
 
+/// The options of studies that name a member without a table of options: their default is one.
+void describe_naming_options(const RegistryBase& family) {
+  std::vector<std::string> ignored;
+  for (const analysis::FilePart& part : analysis::file_parts()) {
+    const Setting* by_default = part.schema.defaults.find(family.family());
+    const auto* member = by_default ? std::get_if<std::string>(&by_default->value) : nullptr;
+    if (member && family.find(*member)) {
+      describe_part(std::string(part.name) + "." + family.family(), ignored);
+    }
+  }
+}
+
+/// A family, or FAMILY.MEMBER and what follows: the key that chooses it is another way to say it.
+bool describe_family(const std::string& name, std::vector<std::string>& known) {
+  const std::string first = name.substr(0, name.find('.'));
+  for (const RegistryBase* family : families()) {
+    known.push_back(family->family());
+    if (first != family->family()) continue;
+    const Schema& scenario = schema_of<scenarios::Scenario>();
+    const std::string key = key_of(*family, scenario);
+    if (first == name || (key.empty() && name == first + ".kind")) {
+      list(first);
+      if (!key.empty()) {
+        fmt::print("chosen by {}.kind\n", key);
+      } else {
+        describe_naming_options(*family);
+      }
+    } else if (!key.empty()) {
+      print_key(scenario, key + name.substr(first.size()));
+    } else {
+      const Option choice{.name = first, .meaning = family->meaning(), .choice = family};
+      print_key(Schema{{choice}, {}, "a scenario"}, name);
+    }
+    return true;
+  }
+  return false;
+}
+
+bool describe_inherits(const std::string& name, std::vector<std::string>& known) {
+  known.emplace_back(scenarios::inherits_key);
+  if (name != scenarios::inherits_key) return false;
+  fmt::print(
+      "{}\n    whose settings hold where the scenario says nothing; later ones before earlier "
+      "ones\n"
+      "    takes the name of a set or scenario, a file, or a list of these; sets are\n",
+      name);
+  for (const std::string& set : scenarios::library_sets()) {
+    fmt::print("      {:<26} {}\n", set, scenarios::set_summary(set));
+  }
+  return true;
+}
+
 /// The keys of a schema, at any depth, that end with this name. `above`: the families whose
 /// members' options are being looked through, which may choose one another.
 void find_keys(const Schema& schema, const std::string& path, const std::string& name,
@@ -131,46 +183,6 @@ bool describe_last_name(const std::string& name) {
   return !of_scenarios.empty() || !of_parts.empty();
 }
 
-/// A family, or FAMILY.MEMBER and what follows: the key that chooses it is another way to say it.
-bool describe_family(const std::string& name, std::vector<std::string>& known) {
-  const std::string first = name.substr(0, name.find('.'));
-  for (const RegistryBase* family : families()) {
-    known.push_back(family->family());
-    if (first != family->family()) continue;
-    const Schema& scenario = schema_of<scenarios::Scenario>();
-    const std::string key = key_of(*family, scenario);
-    if (first == name || (key.empty() && name == first + ".kind")) {
-      list(first);
-      if (!key.empty()) {
-        fmt::print("chosen by {}.kind\n", key);
-      } else {
-        describe_last_name(first);  // an option of studies, which take members without options
-      }
-    } else if (!key.empty()) {
-      print_key(scenario, key + name.substr(first.size()));
-    } else {
-      const Option choice{.name = first, .meaning = family->meaning(), .choice = family};
-      print_key(Schema{{choice}, {}, "a scenario"}, name);
-    }
-    return true;
-  }
-  return false;
-}
-
-bool describe_inherits(const std::string& name, std::vector<std::string>& known) {
-  known.emplace_back(scenarios::inherits_key);
-  if (name != scenarios::inherits_key) return false;
-  fmt::print(
-      "{}\n    whose settings hold where the scenario says nothing; later ones before earlier "
-      "ones\n"
-      "    takes the name of a set or scenario, a file, or a list of these; sets are\n",
-      name);
-  for (const std::string& set : scenarios::library_sets()) {
-    fmt::print("      {:<26} {}\n", set, scenarios::set_summary(set));
-  }
-  return true;
-}
-
 }  // namespace
 
 void describe(const std::string& name) {
@@ -180,12 +192,12 @@ void describe(const std::string& name) {
   std::vector<std::string> known = root.names();
   bool found = root.find(first) != nullptr;
   if (found) print_key(root, name);
+  found |= describe_file(name, scenarios::library_sets(), scenarios::set_file, known);
   found |= describe_members(name, known);
   found |= describe_quantities(name, known);
   found = found || describe_part(name, known);
   found = found || describe_family(name, known);
   found = found || describe_scenario(name, known);
-  found = found || describe_file(name, scenarios::library_sets(), scenarios::set_file, known);
   found = found || describe_file(name, analysis::library_studies(), analysis::find_study, known);
   found = found || describe_inherits(name, known);
   if (!found && is_listed(name)) return list(name);

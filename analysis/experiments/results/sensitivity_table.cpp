@@ -17,8 +17,9 @@ std::size_t analysed_group(const SensitivityRequest& request, const TrialList& l
   const std::string& design = group.design.kind();
   const auto& analyses = Registry<SensitivityAnalysis>::instance();
   if (analyses.find(design) == nullptr) {
-    throw InputError(request.origin, "no sensitivities follow from design.kind = \"" + design +
-                                         "\"; choose one of " + listed(analyses.names()));
+    throw InputError(request.origin, "a sensitivity needs design.kind to be one of " +
+                                         listed(analyses.names()) + ", and the group has \"" +
+                                         design + '"');
   }
   for (const Factor& factor : group.factors) {
     if (factor.only.table().empty()) continue;
