@@ -131,6 +131,23 @@ TEST(Channel, LosesTheShareOfPingsAskedFor) {
   EXPECT_FALSE(Channel(PingOptions{}, RandomStreams(3)).loses({0, 0, 0, 0.0, 1, 0}, 2, 100.0));
 }
 
+/// Pings from afar are missed.
+struct FarLost final : PingLoss {
+  bool loses(const LeavingPing& ping, const RandomStreams&) const override {
+    return ping.range_m > 100.0;
+  }
+  static void declare(Options<FarLost>&) {}
+};
+const Register<PingLoss, FarLost> registered_loss{"test_far_lost", "beyond 100 m"};
+
+TEST(Channel, ALossOfOnesOwnMayGoByTheDistance) {
+  PingOptions options;
+  options.loss = Choice<PingLoss>("test_far_lost");
+  const Channel channel(options, RandomStreams(3));
+  EXPECT_FALSE(channel.loses({0, 0, 0, 0.0, 1, 0}, 2, 99.0));
+  EXPECT_TRUE(channel.loses({0, 0, 0, 0.0, 1, 0}, 2, 101.0));
+}
+
 TEST(Channel, WithoutIdsPingsAreAnonymous) {
   PingOptions options = noiseless();
   options.identified = false;

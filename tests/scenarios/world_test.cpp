@@ -177,6 +177,25 @@ TEST(World, EveryVehicleMayBeLost) {
   EXPECT_EQ(world.lost_count(), 9u);
 }
 
+/// The two vehicles that come first, at one instant.
+struct PairLost final : Fault {
+  std::int64_t count() const override { return 1; }
+  double every_s() const override { return 100.0; }
+  void lose(std::span<const std::size_t> left, std::size_t, const RandomStreams&,
+            std::vector<std::size_t>& lost) const override {
+    lost.assign(left.begin(), left.begin() + 2);
+  }
+  static void declare(Options<PairLost>&) {}
+};
+const Register<Fault, PairLost> registered_fault{"test_pair_lost", "two vehicles, once"};
+
+TEST(World, AFaultOfOnesOwnMayTakeSeveralVehicles) {
+  World world(scenario_of(with(small, {"faults.kind=test_pair_lost"})));
+  world.run({});
+  EXPECT_EQ(world.lost_count(), 2u);
+  EXPECT_TRUE(world.lost(0) && world.lost(1));
+}
+
 TEST(World, StaggeredPingsAreSpreadOverThePeriod) {
   World world(scenario_of(with(small, {"ping.schedule.kind=staggered", "trial.duration_s=29"})));
   std::vector<std::int64_t> sent;

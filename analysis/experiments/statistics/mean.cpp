@@ -3,15 +3,15 @@
 namespace shoal::analysis {
 namespace {
 
-struct Mean final : Statistic {
+struct PlainMean final : Statistic {
   std::string note() const override { return "Means."; }
 
   Estimate of(const std::vector<double>& values) const override { return mean_of(values); }
 
-  static void declare(Options<Mean>&) {}
+  static void declare(Options<PlainMean>&) {}
 };
 
-const Register<Statistic, Mean> registered{"mean", "the mean"};
+const Register<Statistic, PlainMean> registered{"mean", "the mean"};
 
 }  // namespace
 }  // namespace shoal::analysis
