@@ -31,6 +31,8 @@ constexpr Moved moved_keys[] = {
     {"behaviour.attraction_repulsion.cohesion.waypoint.y_m", "waypoint.y_m"},
     {"behaviour.assignment_registration.delta_theta_deg",
      "behaviour.assignment_registration.matching.sampled.delta_theta_deg"},
+    {"ping.sound_speed_m_s", "ping.propagation.straight.sound_speed_m_s"},
+    {"ping.loss_probability", "ping.loss.independent.probability"},
 };
 
 [[noreturn]] void refuse(const std::string& from, const std::string& to, const Origin& origin) {

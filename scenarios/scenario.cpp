@@ -59,20 +59,6 @@ std::optional<std::string> Waypoint::complaint() const {
   return "set both x_m and y_m";
 }
 
-void NodeLoss::declare(Options<NodeLoss>& o) {
-  o.number("every_s", &NodeLoss::every_s, "s", at_least(0), "time between two losses");
-  o.integer("count", &NodeLoss::count, "", in(0, 1e6), "how many vehicles are lost in all");
-}
-
-std::optional<std::string> NodeLoss::complaint() const {
-  if (count > 0 && every_s <= 0.0) return "count is set, so every_s must be above 0 s";
-  return std::nullopt;
-}
-
-void Faults::declare(Options<Faults>& o) {
-  o.table("node_loss", &Faults::node_loss, "random vehicles fall silent for good");
-}
-
 void QualityOptions::declare(Options<QualityOptions>& o) {
   using Q = QualityOptions;
   o.number("every_s", &Q::every_s, "s", at_least(0),
@@ -110,7 +96,7 @@ void Scenario::declare(Options<Scenario>& o) {
   o.choice("current", &S::current, "the motion of the water");
   o.tables("obstacle", &S::obstacles, "what vehicles keep clear of, if their behaviour does");
   o.table("energy", &S::energy, "what the consumers draw");
-  o.table("faults", &S::faults, "what goes wrong on purpose");
+  o.choice("faults", &S::faults, "what goes wrong on purpose");
   o.table("quality", &S::quality, "how the formation quality is measured");
 }
 
@@ -177,8 +163,9 @@ class CrossChecks {
     }
     if (s_.trial.record_every_s > 0.0) whole_ticks(s_.trial.record_every_s, "trial.record_every_s");
     if (s_.quality.every_s > 0.0) whole_ticks(s_.quality.every_s, "quality.every_s");
-    if (s_.faults.node_loss.count > 0) {
-      whole_ticks(s_.faults.node_loss.every_s, "faults.node_loss.every_s");
+    const auto fault = s_.faults.make();
+    if (fault->count() > 0) {
+      whole_ticks(fault->every_s(), "faults." + s_.faults.kind() + ".every_s");
     }
     countable_ticks(s_.ping.period_s, "ping.period_s");
     countable_ticks(s_.ping.first_s, "ping.first_s");

@@ -15,6 +15,7 @@
 #include "shoal/scenarios/acoustics/channel.hpp"
 #include "shoal/scenarios/currents/current.hpp"
 #include "shoal/scenarios/energy.hpp"
+#include "shoal/scenarios/faults/fault.hpp"
 #include "shoal/scenarios/obstacles.hpp"
 #include "shoal/scenarios/starts/start.hpp"
 #include "shoal/scenarios/stops/stop_rule.hpp"
@@ -62,21 +63,6 @@ struct Waypoint {
   Eigen::Vector2d place() const { return {x_m, y_m}; }
 };
 
-/// Random vehicles lost one after the other: Rypkema 2015, sec. 4.4.
-struct NodeLoss {
-  double every_s = 0.0;
-  std::int64_t count = 0;
-
-  static void declare(Options<NodeLoss>& o);
-  std::optional<std::string> complaint() const;
-};
-
-struct Faults {
-  NodeLoss node_loss;
-
-  static void declare(Options<Faults>& o);
-};
-
 /// How the formation quality is measured: Rypkema 2015, sec. 4.3, Table 4.3; or as the least of all
 /// rigid motions, which his recipes miss where vehicles are lost.
 struct QualityOptions {
@@ -107,7 +93,7 @@ struct Scenario {
   Choice<Current> current{"none"};
   std::vector<ObstacleOptions> obstacles;
   Energy energy;
-  Faults faults;
+  Choice<Fault> faults{"node_loss"};
   QualityOptions quality;
 
   static void declare(Options<Scenario>& o);

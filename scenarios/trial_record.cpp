@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "shoal/core/angles.hpp"
+#include "shoal/formations/obstacles/outline.hpp"
 #include "shoal/scenarios/mission_time.hpp"
 
 namespace shoal::scenarios {
@@ -78,6 +79,31 @@ void write_names(NetcdfOutput& file, NetcdfOutput::Variable variable, const Worl
     world.plan().name(static_cast<int>(i)).copy(&names[i * width], width);
   }
   file.put(variable, std::span<const char>(names));
+}
+
+/// The edges of obstacles, in a group of their own: they are no trajectories.
+void write_obstacles(NetcdfOutput& file, const World& world) {
+  std::vector<double> number, x, y;
+  for (const auto& obstacle : world.obstacles()) {
+    const double next = number.empty() ? 1.0 : number.back() + 1.0;
+    for (const Eigen::Vector2d& corner : formations::outline(*obstacle)) {
+      number.push_back(next);
+      x.push_back(corner.x());
+      y.push_back(corner.y());
+    }
+  }
+  if (number.empty()) return;
+  using Type = NetcdfOutput::Type;
+  const NetcdfOutput::Group group = file.group(file.root(), "obstacles");
+  const auto corner = file.dimension(group, "corner", number.size());
+  const auto put = [&](const char* name, const char* unit, const char* meaning,
+                       const std::vector<double>& values) {
+    file.put(file.variable(group, name, Type::double_float, {corner}, unit, meaning), values);
+  };
+  put("obstacle", "1", "which obstacle the corner belongs to, in the order of the scenario",
+      number);
+  put("x", "m", "east of the origin, of the corners of its edge as a polygon", x);
+  put("y", "m", "north of the origin", y);
 }
 
 std::string reason_meanings() {
@@ -156,6 +182,7 @@ void TrialRecord::write(const std::filesystem::path& path, const World& world,
     }
     file.put(recorded[v], std::span<const float>(transposed));
   }
+  write_obstacles(file, world);
   file.finish();
 }
 

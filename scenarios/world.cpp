@@ -29,7 +29,8 @@ World::World(const Scenario& scenario, int threads)
       current_(scenario.current.make()),
       obstacles_(make_obstacles(scenario.obstacles)),
       channel_(scenario.ping, random_),
-      stop_(scenario.stop.make()) {
+      stop_(scenario.stop.make()),
+      fault_(scenario.faults.make()) {
   const auto n = static_cast<std::size_t>(plan_->size());
   if (n < 2) {
     throw InputError(scenario.plan.setting().origin,
@@ -66,20 +67,21 @@ World::World(const Scenario& scenario, int threads)
   empty_s_.assign(n, -1.0);
   last_propulsion_j_.resize(n);
   if (scenario.ping.carries_state) {
-    const double farthest_s = scenario.ping.range_m / scenario.ping.sound_speed_m_s + tick_s;
+    const double farthest_s = channel_.longest_s() + tick_s;
     reports_kept_ = static_cast<std::size_t>(farthest_s / scenario.ping.period_s) + 2;
     reports_.resize(n * reports_kept_);
   }
 
   end_tick_ = ticks_of(scenario.trial.duration_s, tick_s, "trial.duration_s");
-  guidance_ticks_ = ticks_of(guidance_->period_s(), tick_s, "guidance.drift.period_s");
+  guidance_ticks_ =
+      ticks_of(guidance_->period_s(), tick_s, "guidance." + scenario.guidance.kind() + ".period_s");
   planner_ticks_ = scenario.planner.update == PlannerOptions::Update::tick
                        ? ticks_of(scenario.planner.period_s, tick_s, "planner.period_s")
                        : 0;
   wake_tick_.assign(n, planner_ticks_ > 0 ? 0 : never);
-  loss_ticks_ = scenario.faults.node_loss.count > 0 ? ticks_of(scenario.faults.node_loss.every_s,
-                                                               tick_s, "faults.node_loss.every_s")
-                                                    : 0;
+  loss_ticks_ = fault_->count() > 0 ? ticks_of(fault_->every_s(), tick_s,
+                                               "faults." + scenario.faults.kind() + ".every_s")
+                                    : 0;
   forget_ticks_ = static_cast<std::int64_t>(scenario.ping_filter.contact_timeout_s / tick_s) + 1;
   for (std::size_t i = 0; i < n; ++i) next_emission_.push_back(emission_tick(i, 0));
 }
@@ -112,7 +114,7 @@ void World::run(std::span<Observer* const> observers) {
     throw InputError(scenario_.stop.setting().origin,
                      "stop.kind is " + scenario_.stop.kind() +
                          ", and nothing that observes this world measures the formation quality; "
-                         "run it with its measures, or set stop.kind = \"duration\"");
+                         "run it with its measures, or leave stop out");
   }
   // As many threads as asked for, also on a machine with fewer cores.
   const tbb::global_control allowed(tbb::global_control::max_allowed_parallelism,
@@ -171,27 +173,22 @@ void World::end_now(const std::string& why) {
 
 void World::lose_vehicles() {
   if (loss_ticks_ == 0 || tick_ == 0 || tick_ % loss_ticks_ != 0) return;
-  if (static_cast<std::int64_t>(lost_count_) == scenario_.faults.node_loss.count) return;
-  if (lost_count_ == size()) return;
-  const double u = random_.uniform(Purpose::node_loss, 0, lost_count_)[0];
-  auto skip = static_cast<std::size_t>(u * static_cast<double>(size() - lost_count_));
+  if (tick_ / loss_ticks_ > fault_->count()) return;
+  std::vector<std::size_t> left, now;
   for (std::size_t i = 0; i < size(); ++i) {
-    if (lost(i)) continue;
-    if (skip-- > 0) continue;
+    if (!lost(i)) left.push_back(i);
+  }
+  fault_->lose(left, lost_count_, random_, now);
+  for (const std::size_t i : now) {
     lost_s_[i] = time_s();
     ++lost_count_;
     commands_[i] = {};
     swarm_->speed_m_s[i] = 0.0;
-    return;
   }
 }
 
 std::int64_t World::emission_tick(std::size_t i, std::int64_t emission) const {
-  const PingOptions& ping = scenario_.ping;
-  const double slot = ping.schedule == PingOptions::Schedule::staggered
-                          ? ping.period_s * static_cast<double>(i) / static_cast<double>(size())
-                          : 0.0;
-  const double time = ping.first_s + slot + static_cast<double>(emission) * ping.period_s;
+  const double time = channel_.emission_s(i, size(), emission);
   return static_cast<std::int64_t>(std::ceil(time / scenario_.trial.tick_s - 1e-9));
 }
 
@@ -217,8 +214,9 @@ void World::send_pings() {
       const double dx = swarm_->x_m[receiver] - ping.x_m;
       const double dy = swarm_->y_m[receiver] - ping.y_m;
       const double dz = swarm_->depth_m[receiver] - ping.depth_m;
-      if (dx * dx + dy * dy + dz * dz > far * far) return;
-      if (channel_.loses(ping, static_cast<std::uint32_t>(receiver))) return;
+      const double squared = dx * dx + dy * dy + dz * dz;
+      if (squared > far * far) return;
+      if (channel_.loses(ping, static_cast<std::uint32_t>(receiver), std::sqrt(squared))) return;
       hydrophones_[receiver].underway.push_back(ping);
       wake_tick_[receiver] = tick_;
     });

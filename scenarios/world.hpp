@@ -70,6 +70,8 @@ class World {
   }
   const formations::Behaviour& behaviour() const { return *behaviour_; }
   const formations::Guidance& guidance() const { return *guidance_; }
+  const StopRule& stop() const { return *stop_; }
+  const Fault& fault() const { return *fault_; }
   bool lost(std::size_t i) const { return lost_s_[i] >= 0.0; }
   std::size_t lost_count() const { return lost_count_; }
   const Logbook& logbook(std::size_t i) const { return logbooks_[i]; }
@@ -126,6 +128,7 @@ class World {
   Channel channel_;
   std::unique_ptr<Swarm> swarm_;
   std::unique_ptr<StopRule> stop_;
+  std::unique_ptr<Fault> fault_;
   std::string stopped_by_ = "duration";
 
   std::vector<formations::Planner> planners_;

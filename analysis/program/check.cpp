@@ -124,7 +124,7 @@ void compare_currents(const std::vector<fs::path>& files) {
       table.notes.push_back(std::string("no statistics: ") + error.what());
     }
   }
-  if (!files.empty()) fmt::print("\n{}", print(table, analysis::TableFormat::text));
+  if (!files.empty()) fmt::print("\n{}", analysis::as_text(table));
 }
 
 }  // namespace

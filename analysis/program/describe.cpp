@@ -100,6 +100,18 @@ bool describe_part(const std::string& name, std::vector<std::string>& known) {
   return false;
 }
 
+/// The options of studies that name a member without a table of options: their default is one.
+void describe_naming_options(const RegistryBase& family) {
+  std::vector<std::string> ignored;
+  for (const analysis::FilePart& part : analysis::file_parts()) {
+    const Setting* by_default = part.schema.defaults.find(family.family());
+    const auto* member = by_default ? std::get_if<std::string>(&by_default->value) : nullptr;
+    if (member && family.find(*member)) {
+      describe_part(std::string(part.name) + "." + family.family(), ignored);
+    }
+  }
+}
+
 /// A family, or FAMILY.MEMBER and what follows: the key that chooses it is another way to say it.
 bool describe_family(const std::string& name, std::vector<std::string>& known) {
   const std::string first = name.substr(0, name.find('.'));
@@ -110,7 +122,11 @@ bool describe_family(const std::string& name, std::vector<std::string>& known) {
     const std::string key = key_of(*family, scenario);
     if (first == name || (key.empty() && name == first + ".kind")) {
       list(first);
-      if (!key.empty()) fmt::print("chosen by {}.kind\n", key);
+      if (!key.empty()) {
+        fmt::print("chosen by {}.kind\n", key);
+      } else {
+        describe_naming_options(*family);
+      }
     } else if (!key.empty()) {
       print_key(scenario, key + name.substr(first.size()));
     } else {
@@ -176,12 +192,12 @@ void describe(const std::string& name) {
   std::vector<std::string> known = root.names();
   bool found = root.find(first) != nullptr;
   if (found) print_key(root, name);
+  found |= describe_file(name, scenarios::library_sets(), scenarios::set_file, known);
   found |= describe_members(name, known);
   found |= describe_quantities(name, known);
   found = found || describe_part(name, known);
   found = found || describe_family(name, known);
   found = found || describe_scenario(name, known);
-  found = found || describe_file(name, scenarios::library_sets(), scenarios::set_file, known);
   found = found || describe_file(name, analysis::library_studies(), analysis::find_study, known);
   found = found || describe_inherits(name, known);
   if (!found && is_listed(name)) return list(name);

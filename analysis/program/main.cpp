@@ -251,8 +251,7 @@ int shoal_program(int argc, char** argv) {
       ->delimiter(',')
       ->required();
   solve_command
-      ->add_option("--set", solve.sets,
-                   "FAMILY.SOLVER.OPTION=VALUE, as solver.newton.x_tolerance_m=1e-6")
+      ->add_option("--set", solve.sets, "FAMILY.SOLVER.OPTION=VALUE (shoal describe SOLVER)")
       ->expected(1)
       ->take_all();
   solve_command->add_option("--reference", solve.reference,
@@ -262,7 +261,7 @@ int shoal_program(int argc, char** argv) {
                    "metres within which two minima are the same")
       ->check(at_least_0)
       ->capture_default_str();
-  solve_command->add_option("--format", solve.format, "text, csv, markdown, latex or html")
+  solve_command->add_option("--format", solve.format, "of the table (shoal list table_formats)")
       ->capture_default_str();
   solve_command->add_option("--profiles", solve.profiles,
                             "CSV file for Dolan and Moré's performance profiles; progress curves "

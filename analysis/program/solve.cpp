@@ -3,13 +3,14 @@
 #include "commands.hpp"
 #include "shoal/analysis/benchmarking/solver_comparison.hpp"
 #include "shoal/analysis/experiments/trial.hpp"
+#include "shoal/analysis/tables/table_format.hpp"
 #include "shoal/core/whole_file.hpp"
 #include "shoal/scenarios/toml_file.hpp"
 
 namespace shoal::program {
 
 void solve(const SolveArguments& arguments) {
-  const analysis::TableFormat format = analysis::table_format(arguments.format);
+  const auto format = analysis::table_format(arguments.format);
   analysis::ComparisonSettings settings{.solvers = arguments.solvers,
                                         .reference = arguments.reference,
                                         .options = {},
@@ -28,10 +29,10 @@ void solve(const SolveArguments& arguments) {
     throw InputError("no problem of " + arguments.corpus +
                      " belongs to the family of a solver that was named");
   }
-  fmt::print("{}", print(analysis::comparison_table(comparison, arguments.same_within_m), format));
+  fmt::print("{}", format->print(analysis::comparison_table(comparison, arguments.same_within_m)));
   if (profiles.empty()) return;
   const auto write = [](const std::filesystem::path& file, const analysis::Table& table) {
-    write_whole_file(file, print(table, analysis::TableFormat::csv));
+    write_whole_file(file, as_csv(table));
   };
   write(profiles, analysis::performance_profiles(comparison));
   write(progress, analysis::progress_curves(comparison));

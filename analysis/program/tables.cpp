@@ -26,9 +26,10 @@ void write_all(SweptStudy& study) {
   const std::string folder = study.folder().string();
   const std::size_t written = study.write_tables();
   print_state(study.results());
-  fmt::print("written: {}/tables, {} tables as .tex, .csv and .md\n", folder, written);
+  fmt::print("written: {}/tables, {} tables as {}\n", folder, written,
+             listed(analysis::file_endings_of_tables()));
   for (const analysis::Table& table : study.tables()) {
-    const auto unknown = analysis::unknown_to_latex(print(table, analysis::TableFormat::latex));
+    const auto unknown = analysis::unknown_to_latex(analysis::as_latex(table));
     if (unknown.empty()) continue;
     fmt::print("tables/{}.tex needs XeLaTeX or LuaLaTeX, for {}\n", table.name, listed(unknown));
   }
@@ -86,8 +87,7 @@ void show_tables(SweptStudy& study, bool summary) {
   // After a sweep, the first table: the one that the study begins with.
   const std::size_t shown = summary ? std::min<std::size_t>(1, tables.size()) : tables.size();
   for (std::size_t i = 0; i < shown; ++i) {
-    fmt::print("{}:\n{}\n", tables[i].name,
-               analysis::print(tables[i], analysis::TableFormat::text));
+    fmt::print("{}:\n{}\n", tables[i].name, analysis::as_text(tables[i]));
   }
   write_all(study);
 }

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <map>
@@ -6,6 +7,7 @@
 #include <span>
 
 #include "conversions.hpp"
+#include "potentials.hpp"
 #include "python_class.hpp"
 #include "shoal/core/options_impl.hpp"
 #include "shoal/core/text.hpp"
@@ -237,6 +239,20 @@ class NamedPotential {
 };
 
 }  // namespace
+
+bool has_scalar_function(const Setting& setting) {
+  if (!setting.is_table()) return false;
+  const Setting* kind = setting.find("kind");
+  const auto* name = kind ? std::get_if<std::string>(&kind->value) : nullptr;
+  if (name && *name == "python") {
+    const Setting* batch = setting.find_path("python.batch");
+    return !batch || !std::get<bool>(batch->value);
+  }
+  return std::ranges::any_of(setting.table(), [&](const auto& entry) {
+    const bool chosen = !name || !entry.second.is_table() || entry.first == *name;
+    return chosen && has_scalar_function(entry.second);
+  });
+}
 
 void add_potentials(py::module_& module) {
   module.def(

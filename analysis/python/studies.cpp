@@ -10,6 +10,7 @@
 #include "shoal/analysis/experiments/sweep/progress_text.hpp"
 #include "shoal/analysis/reporting/export.hpp"
 #include "shoal/analysis/reporting/study_report.hpp"
+#include "shoal/analysis/tables/table_format.hpp"
 #include "shoal/scenarios/library_path.hpp"
 #include "shoal/scenarios/toml_file.hpp"
 
@@ -240,16 +241,11 @@ void add_studies(py::module_& module) {
       .def(
           "print",
           [](const analysis::Table& table, const std::string& format) {
-            return analysis::print(table, analysis::table_format(format));
+            return analysis::table_format(format)->print(table);
           },
-          py::arg("format") = "text", "As text, csv, markdown, latex or html.")
-      .def("__str__",
-           [](const analysis::Table& table) {
-             return analysis::print(table, analysis::TableFormat::text);
-           })
-      .def("_repr_html_", [](const analysis::Table& table) {
-        return analysis::print(table, analysis::TableFormat::html);
-      });
+          py::arg("format") = "text", "In a format, as shoal list table_formats names them.")
+      .def("__str__", &analysis::as_text)
+      .def("_repr_html_", &analysis::as_html);
 }
 
 }  // namespace shoal::python

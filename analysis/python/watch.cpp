@@ -1,28 +1,13 @@
 #include "watch.hpp"
 
-#include <algorithm>
 #include <chrono>
 
+#include "potentials.hpp"
 #include "python_class.hpp"
 #include "shoal/analysis/experiments/trial.hpp"
 
 namespace shoal::python {
 namespace {
-
-/// A Python function of numbers, not of arrays, somewhere among the options that are chosen.
-bool has_scalar_function(const Setting& setting) {
-  if (!setting.is_table()) return false;
-  const Setting* kind = setting.find("kind");
-  const auto* name = kind ? std::get_if<std::string>(&kind->value) : nullptr;
-  if (name && *name == "python") {
-    const Setting* batch = setting.find_path("python.batch");
-    return !batch || !std::get<bool>(batch->value);
-  }
-  return std::ranges::any_of(setting.table(), [&](const auto& entry) {
-    const bool chosen = !name || !entry.second.is_table() || entry.first == *name;
-    return chosen && has_scalar_function(entry.second);
-  });
-}
 
 class Watch final : public scenarios::Observer {
  public:

@@ -6,13 +6,13 @@
 
 #include "shoal/analysis/experiments/measure.hpp"
 #include "shoal/analysis/reporting/current_arrows.hpp"
-#include "shoal/analysis/reporting/outline.hpp"
 #include "shoal/analysis/reporting/packed.hpp"
 #include "shoal/analysis/reporting/page.hpp"
 #include "shoal/analysis/reporting/recorded_run.hpp"
 #include "shoal/analysis/reporting/run_tracks.hpp"
 #include "shoal/core/text.hpp"
 #include "shoal/core/whole_file.hpp"
+#include "shoal/formations/obstacles/outline.hpp"
 #include "shoal/scenarios/scenario.hpp"
 #include "shoal/scenarios/toml_file.hpp"
 
@@ -117,7 +117,8 @@ void add_playback(const scenarios::Scenario& scenario, const RecordedRun& run, J
   data["obstacles"] = Json::array();
   for (const auto& obstacle : scenarios::make_obstacles(scenario.obstacles)) {
     Json& edge = data["obstacles"].emplace_back(Json::array());
-    for (const Eigen::Vector2d& corner : outline(*obstacle)) edge.push_back(point(corner));
+    for (const Eigen::Vector2d& corner : formations::outline(*obstacle))
+      edge.push_back(point(corner));
   }
   data["waypoint"] = scenario.waypoint ? point(scenario.waypoint->place()) : Json(nullptr);
   data["arrival_radius_m"] = scenario.waypoint ? Json(scenario.waypoint->radius_m) : Json(nullptr);

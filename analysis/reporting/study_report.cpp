@@ -166,9 +166,8 @@ void write_study_report(SweptStudy& study) {
             {"manifest", stored_manifest(folder)}};
   data["tables"] = Json::array();
   for (const Table& table : study.tables()) {
-    data["tables"].push_back({{"name", table.name},
-                              {"html", print(table, TableFormat::html)},
-                              {"points", charts(table)}});
+    data["tables"].push_back(
+        {{"name", table.name}, {"html", as_html(table)}, {"points", charts(table)}});
   }
   data["files"] = written_tables(folder / "tables");
   data["claims"] = claims(study.claims());

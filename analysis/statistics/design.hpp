@@ -18,6 +18,10 @@ class Design {
 
   virtual ~Design() = default;
 
+  /// Whether its cells are samples of the ranges, which are told apart by a number, and not the
+  /// combinations of given levels.
+  virtual bool draws() const { return true; }
+
   /// Cells x factors: where each factor stands in its range, from 0 to 1. `levels[f]` is the number
   /// of levels of factor f, or 0 if it is continuous; with n levels it takes level
   /// min(floor(u n), n - 1). Throws InputError if the design cannot take these factors.

@@ -13,14 +13,6 @@ namespace shoal::analysis::statistics {
 /// What speaks against the null hypothesis: differences far from 0, above it, or below it.
 enum class Alternative { two_sided, greater, less };
 
-/// The tests below, by name.
-enum class PairedTest : std::uint8_t { sign_flip, wilcoxon, paired_t };
-
-/// The least two-sided p-value that a test of `n` differences can give, whatever they are: 2^(1 -
-/// n) of the exact tests, since of all patterns of signs that of the sample and its opposite count;
-/// 0 where there is no such bound.
-double least_p_value(PairedTest test, int n);
-
 struct TestResult {
   double statistic = 0.0;
   double p_value = 1.0;
@@ -43,6 +35,10 @@ struct SignFlipOptions {
 std::optional<TestResult> sign_flip_test(const Differences& differences,
                                          Alternative alternative = Alternative::two_sided,
                                          const SignFlipOptions& options = {});
+
+/// The least two-sided p-value of that test, by default, of `n` differences: of all patterns of
+/// signs, that of the sample and its opposite count.
+double least_sign_flip_p_value(int n);
 
 /// Wilcoxon's signed-rank test. Differences of 0 are left out, as Wilcoxon 1945 did (not ranked, as
 /// Pratt 1959 does), equal ones share their midrank; both up to rounding (differences.hpp).

@@ -8,8 +8,6 @@
 #include <numbers>
 #include <stdexcept>
 
-#include "shoal/analysis/statistics/simulated_power.hpp"
-
 namespace shoal::analysis::statistics {
 namespace {
 
@@ -83,24 +81,20 @@ double paired_t_power(int n, double difference, double sd, double alpha, Alterna
   return std::min(power, 1.0);
 }
 
-double two_sided_power(PairedTest test, int n, double effect, double alpha) {
+double two_sided_power(const PairedTest& test, int n, double effect, double alpha) {
   require_chance(alpha, "alpha is not between 0 and 1");
-  if (test != PairedTest::paired_t) {
-    if (const auto share = simulated_power(test, n, effect, alpha)) return *share;
-  }
-  const double kept = test == PairedTest::wilcoxon ? std::sqrt(3.0 * std::numbers::inv_pi) : 1.0;
-  return paired_t_power(n, kept * effect, 1.0, alpha);
+  return test.power(n, effect, alpha);
 }
 
-std::optional<int> replications_for(PairedTest test, double effect, double alpha, double power,
-                                    int most) {
+std::optional<int> replications_for(const PairedTest& test, double effect, double alpha,
+                                    double power, int most) {
   require_chance(power, "a power is not between 0 and 1");
   const auto suffice = [&](int n) { return two_sided_power(test, n, effect, alpha) >= power; };
   const auto by_t = replications_for(effect, 1.0, alpha, power, most);
-  if (test == PairedTest::paired_t || !by_t) return by_t;
-  // No test of the three has more power than Student's: the search begins there.
+  if (!by_t) return by_t;
+  // No test of normal differences has more power than Student's: the search begins there.
   int n = *by_t;
-  while (n <= most && least_p_value(test, n) > alpha) ++n;
+  while (n <= most && test.least_p_value(n) > alpha) ++n;
   if (n > most) return std::nullopt;
   if (suffice(n)) return n;
   const auto more = fewest(most - n + 1, [&](int extra) { return suffice(n + extra - 1); });

@@ -2,7 +2,7 @@
 
 #include <optional>
 
-#include "shoal/analysis/statistics/paired_tests.hpp"
+#include "shoal/analysis/statistics/paired_test.hpp"
 
 namespace shoal::analysis::statistics {
 
@@ -21,13 +21,13 @@ double paired_t_power(int n, double difference, double sd, double alpha,
 /// be further out (256 of the sign-flip test, 60 differences of Wilcoxon's) that no formula is
 /// true; beyond, the t test's, with the effect times sqrt(3 / pi) for Wilcoxon's, as in large
 /// samples (Lehmann 1975, sec. 4.2). Throws std::invalid_argument as above.
-double two_sided_power(PairedTest test, int n, double effect, double alpha);
+double two_sided_power(const PairedTest& test, int n, double effect, double alpha);
 
 /// The fewest pairs, at least 2, with which a two-sided test has that power; nothing if `most`
 /// pairs do not suffice. Throws std::invalid_argument as above, and unless the power lies between 0
 /// and 1.
-std::optional<int> replications_for(PairedTest test, double effect, double alpha, double power,
-                                    int most = 10'000);
+std::optional<int> replications_for(const PairedTest& test, double effect, double alpha,
+                                    double power, int most = 10'000);
 /// The same for the paired t test.
 std::optional<int> replications_for(double difference, double sd, double alpha, double power,
                                     int most = 10'000);

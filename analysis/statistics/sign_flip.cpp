@@ -104,17 +104,9 @@ class RandomSums {
 
 }  // namespace
 
-double least_p_value(PairedTest test, int n) {
+double least_sign_flip_p_value(int n) {
   const bool exact = static_cast<std::size_t>(n) <= most_exact_terms;
-  switch (test) {
-    case PairedTest::sign_flip:
-      return exact ? std::ldexp(1.0, 1 - n) : 1.0 / (SignFlipOptions{}.resamples + 1.0);
-    case PairedTest::wilcoxon:
-      return std::ldexp(1.0, 1 - n);
-    case PairedTest::paired_t:
-      return 0.0;
-  }
-  return 0.0;
+  return exact ? std::ldexp(1.0, 1 - n) : 1.0 / (SignFlipOptions{}.resamples + 1.0);
 }
 
 std::optional<TestResult> sign_flip_test(const Differences& given, Alternative alternative,

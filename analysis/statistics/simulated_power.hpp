@@ -1,14 +1,18 @@
 #pragma once
 
-#include <optional>
-
-#include "shoal/analysis/statistics/paired_tests.hpp"
+#include <functional>
+#include <vector>
 
 namespace shoal::analysis::statistics {
 
-/// The share of 4000 samples of n normal differences, always the same ones, in which a two-sided
-/// exact test rejects at level `alpha`; `effect` is their true mean in standard deviations. Nothing
-/// where formulas for large samples do as well (power.hpp), and for the t test.
-std::optional<double> simulated_power(PairedTest test, int n, double effect, double alpha);
+/// Beyond that many, formulas for large samples do as well.
+inline constexpr int most_simulated_differences = 60;
+
+/// Whether a two-sided test rejects a sample.
+using Rejects = std::function<bool(std::vector<double> differences)>;
+
+/// The share of 4000 samples of n normal differences, always the same ones, that are rejected;
+/// `effect` is their true mean in standard deviations. At most most_simulated_differences.
+double simulated_power(int n, double effect, const Rejects& rejects);
 
 }  // namespace shoal::analysis::statistics

@@ -3,6 +3,7 @@
 #include <set>
 
 #include "shoal/analysis/tables/layout.hpp"
+#include "shoal/analysis/tables/table_format.hpp"
 #include "shoal/core/csv_line.hpp"
 #include "shoal/core/text.hpp"
 
@@ -154,4 +155,17 @@ std::string as_csv(const Table& table) {
   return printed;
 }
 
+namespace {
+
+struct InCsv final : TableFormat {
+  std::string print(const Table& table) const override { return as_csv(table); }
+  std::string file_ending() const override { return ".csv"; }
+
+  static void declare(Options<InCsv>&) {}
+};
+
+const Register<TableFormat, InCsv> registered{
+    "csv", "comma-separated values (RFC 4180), numbers in full precision"};
+
+}  // namespace
 }  // namespace shoal::analysis

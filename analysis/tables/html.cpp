@@ -1,4 +1,5 @@
 #include "shoal/analysis/tables/layout.hpp"
+#include "shoal/analysis/tables/table_format.hpp"
 
 namespace shoal::analysis {
 namespace {
@@ -82,4 +83,16 @@ std::string as_html(const Table& table) {
   return printed + "</figure>\n";
 }
 
+namespace {
+
+struct InHtml final : TableFormat {
+  std::string print(const Table& table) const override { return as_html(table); }
+
+  static void declare(Options<InHtml>&) {}
+};
+
+const Register<TableFormat, InHtml> registered{"html",
+                                               "a table element, in a figure with its notes"};
+
+}  // namespace
 }  // namespace shoal::analysis

@@ -9,6 +9,7 @@
 #include "shoal/analysis/tables/latex_signs.hpp"
 #include "shoal/analysis/tables/latex_text.hpp"
 #include "shoal/analysis/tables/layout.hpp"
+#include "shoal/analysis/tables/table_format.hpp"
 #include "shoal/core/text.hpp"
 
 namespace shoal::analysis {
@@ -260,4 +261,17 @@ std::string as_latex(const Table& table) {
   return "% Needs XeLaTeX or LuaLaTeX and a font that has " + listed(unknown) + "\n" + printed;
 }
 
+namespace {
+
+struct InLatex final : TableFormat {
+  std::string print(const Table& table) const override { return as_latex(table); }
+  std::string file_ending() const override { return ".tex"; }
+
+  static void declare(Options<InLatex>&) {}
+};
+
+const Register<TableFormat, InLatex> registered{"latex",
+                                                "a table environment, with booktabs and siunitx"};
+
+}  // namespace
 }  // namespace shoal::analysis

@@ -81,11 +81,4 @@ std::string superscript(const std::string& mark);
 /// Line breaks as blanks.
 std::string on_one_line(std::string text);
 
-/// The writers, among which print() chooses.
-std::string as_text(const Table& table);
-std::string as_csv(const Table& table);
-std::string as_markdown(const Table& table);
-std::string as_latex(const Table& table);
-std::string as_html(const Table& table);
-
 }  // namespace shoal::analysis

@@ -1,6 +1,7 @@
 #include <cctype>
 
 #include "shoal/analysis/tables/layout.hpp"
+#include "shoal/analysis/tables/table_format.hpp"
 
 namespace shoal::analysis {
 namespace {
@@ -65,4 +66,16 @@ std::string as_markdown(const Table& table) {
   return printed;
 }
 
+namespace {
+
+struct InMarkdown final : TableFormat {
+  std::string print(const Table& table) const override { return as_markdown(table); }
+  std::string file_ending() const override { return ".md"; }
+
+  static void declare(Options<InMarkdown>&) {}
+};
+
+const Register<TableFormat, InMarkdown> registered{"markdown", "a pipe table of GitHub"};
+
+}  // namespace
 }  // namespace shoal::analysis

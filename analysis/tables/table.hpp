@@ -2,7 +2,6 @@
 
 #include <optional>
 #include <string>
-#include <string_view>
 #include <variant>
 #include <vector>
 
@@ -78,30 +77,33 @@ struct Table {
   std::vector<std::string> notes;  ///< below it: what the uncertainties are, say
 };
 
-enum class TableFormat { text, csv, markdown, latex, html };
+// The table in one of the forms below; each ends with a line break. Where estimates know their n, a
+// note says it once; those that differ from most others, or had failures, carry a mark, and a note
+// says what it stands for. A number of events is followed by how many trials saw it: `1350 +- 40
+// (18 of 20)`.
+//
+// All throw std::invalid_argument for a table without columns, rows of another length, columns that
+// mix kinds, numbers that are not finite, intervals whose ends are swapped, negative counts and
+// uncertainties, and a name that is not fit for a label.
 
-/// Ends with a line break. Where estimates know their n, a note says it once; those that differ
-/// from most others, or had failures, carry a mark, and a note says what it stands for.
-///
-/// A number of events is followed by how many trials saw it: `1350 +- 40 (18 of 20)`.
-///
-///  - `text`: for terminals. Best values end with `*`.
-///  - `csv`: RFC 4180 with `\n`; caption and notes are left out. An estimate takes columns of its
-///    own: `x`, then `x_plus_minus`, `x_sd` or `x_low` and `x_high`, then `x_n` and `x_failed`, and
-///    `x_not_run`, `x_best`, `x_reached`, `x_remarks` and `x_each` (values separated by blanks)
-///    where any is. Numbers are in full precision. Of columns with one name, those with numbers
-///    keep it; labels become `x_label`, and others `x_2`.
-///  - `markdown`: a pipe table of GitHub. Best values are bold.
-///  - `latex`: a table environment that needs booktabs, graphicx and siunitx (2 or 3), or, of one
-///    with sentences, a longtable. Best values are bold.
-///  - `html`: a table element with its caption, in a figure with its notes. Best values are strong.
-///
-/// Throws std::invalid_argument for a table without columns, rows of another length, columns that
-/// mix kinds, numbers that are not finite, intervals whose ends are swapped, negative counts and
-/// uncertainties, and a name that is not fit for a label.
-std::string print(const Table& table, TableFormat format);
+/// For terminals. Best values end with `*`.
+std::string as_text(const Table& table);
 
-/// Throws InputError, naming the known ones, for anything else.
-TableFormat table_format(std::string_view name);
+/// RFC 4180 with `\n`; caption and notes are left out. An estimate takes columns of its own: `x`,
+/// then `x_plus_minus`, `x_sd` or `x_low` and `x_high`, then `x_n` and `x_failed`, and `x_not_run`,
+/// `x_best`, `x_reached`, `x_remarks` and `x_each` (values separated by blanks) where any is.
+/// Numbers are in full precision. Of columns with one name, those with numbers keep it; labels
+/// become `x_label`, and others `x_2`.
+std::string as_csv(const Table& table);
+
+/// A pipe table of GitHub. Best values are bold.
+std::string as_markdown(const Table& table);
+
+/// A table environment that needs booktabs, graphicx and siunitx (2 or 3), or, of one with
+/// sentences, a longtable. Best values are bold.
+std::string as_latex(const Table& table);
+
+/// A table element with its caption, in a figure with its notes. Best values are strong.
+std::string as_html(const Table& table);
 
 }  // namespace shoal::analysis

@@ -1,6 +1,7 @@
 #include <algorithm>
 
 #include "shoal/analysis/tables/layout.hpp"
+#include "shoal/analysis/tables/table_format.hpp"
 
 namespace shoal::analysis {
 namespace {
@@ -144,4 +145,15 @@ std::string as_text(const Table& table) {
   return printed;
 }
 
+namespace {
+
+struct InText final : TableFormat {
+  std::string print(const Table& table) const override { return as_text(table); }
+
+  static void declare(Options<InText>&) {}
+};
+
+const Register<TableFormat, InText> registered{"text", "for terminals"};
+
+}  // namespace
 }  // namespace shoal::analysis

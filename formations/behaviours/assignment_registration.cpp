@@ -16,7 +16,7 @@ class ByAssignment final : public Behaviour {
   explicit ByAssignment(const AssignmentRegistration& options)
       : options_(options),
         matcher_(options.matching.make()),
-        registration_(Choice<solvers::RegistrationSolver>("procrustes").make()) {}
+        registration_(solvers::closed_form()) {}
 
   bool needs_ids() const override { return false; }
   std::unique_ptr<Memory> new_memory() const override { return matcher_->new_memory(); }

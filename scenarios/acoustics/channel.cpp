@@ -18,12 +18,10 @@ std::uint64_t index_of(const PingUnderway& ping) {
 void PingOptions::declare(Options<PingOptions>& o) {
   using P = PingOptions;
   o.number("period_s", &P::period_s, "s", above(0), "time between two pings of a vehicle");
-  o.word("schedule", &P::schedule,
-         {{"synchronous", Schedule::synchronous}, {"staggered", Schedule::staggered}},
-         "all vehicles ping at once, as in the author's trials, or evenly spread over the period");
+  o.choice("schedule", &P::schedule, "when vehicles ping within the period");
   o.number("first_s", &P::first_s, "s", at_least(0), "time of the first ping");
   o.number("range_m", &P::range_m, "m", above(0), "how far a ping is heard (three-dimensional)");
-  o.number("sound_speed_m_s", &P::sound_speed_m_s, "m/s", above(0), "speed of sound");
+  o.choice("propagation", &P::propagation, "how pings travel");
   o.number("range_sd_m", &P::range_sd_m, "m", at_least(0), "standard deviation of ranges");
   o.number("bearing_sd_deg", &P::bearing_sd_deg, "deg", at_least(0),
            "standard deviation of bearings");
@@ -31,8 +29,7 @@ void PingOptions::declare(Options<PingOptions>& o) {
            "standard deviation of elevations; it shortens horizontal distances a little");
   o.number("minimum_range_m", &P::minimum_range_m, "m", at_least(0),
            "a modem measures no shorter range");
-  o.number("loss_probability", &P::loss_probability, "", in(0, 1),
-           "chance that a receiver misses a ping");
+  o.choice("loss", &P::loss, "which pings are missed, though they are in range");
   o.flag("identified", &P::identified,
          "pings carry the sender's id; without, neighbours are told apart by where they are");
   o.flag("carries_state", &P::carries_state,
@@ -40,10 +37,20 @@ void PingOptions::declare(Options<PingOptions>& o) {
          "then taken instead of what was measured (Barisic et al. 2011, sec. 3)");
 }
 
-bool Channel::loses(const PingUnderway& ping, std::uint32_t receiver) const {
-  if (options_.loss_probability <= 0.0) return false;
-  return random_.uniform(Purpose::ping_loss, receiver, index_of(ping))[0] <
-         options_.loss_probability;
+Channel::Channel(const PingOptions& options, const RandomStreams& random)
+    : options_(options),
+      random_(random),
+      schedule_(options.schedule.make()),
+      propagation_(options.propagation.make()),
+      loss_(options.loss.make()) {}
+
+double Channel::emission_s(std::size_t vehicle, std::size_t vehicles, std::int64_t emission) const {
+  const double delay_s = schedule_->delay_s(vehicle, vehicles, options_.period_s);
+  return options_.first_s + delay_s + static_cast<double>(emission) * options_.period_s;
+}
+
+bool Channel::loses(const PingUnderway& ping, std::uint32_t receiver, double range_m) const {
+  return loss_->loses({receiver, index_of(ping), range_m}, random_);
 }
 
 void Channel::listen(const Swarm& swarm, std::size_t i, double now_s, double tick_s,
@@ -55,11 +62,10 @@ void Channel::listen(const Swarm& swarm, std::size_t i, double now_s, double tic
   std::erase_if(hydrophone.underway, [&](const PingUnderway& ping) {
     const Eigen::Vector3d sender(ping.x_m, ping.y_m, ping.depth_m);
     // How far the front of the ping is past the receiver, now and one tick ago.
-    const double past =
-        options_.sound_speed_m_s * (now_s - ping.emitted_s) - (here - sender).norm();
+    const double past = propagation_->past_m(now_s - ping.emitted_s, sender, here);
     if (past < 0.0) return false;
     const double past_before =
-        options_.sound_speed_m_s * (now_s - tick_s - ping.emitted_s) - (before - sender).norm();
+        propagation_->past_m(now_s - tick_s - ping.emitted_s, sender, before);
     const double share =
         past > past_before ? std::clamp(-past_before / (past - past_before), 0.0, 1.0) : 1.0;
     const Eigen::Vector3d there = before + share * (here - before);

@@ -1,29 +1,31 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 #include "shoal/core/options.hpp"
 #include "shoal/core/random.hpp"
 #include "shoal/formations/ping_filter.hpp"
+#include "shoal/scenarios/acoustics/ping_loss.hpp"
+#include "shoal/scenarios/acoustics/ping_schedule.hpp"
+#include "shoal/scenarios/acoustics/propagation.hpp"
 #include "shoal/scenarios/vehicles/swarm.hpp"
 
 namespace shoal::scenarios {
 
 /// When vehicles ping, how far they are heard, and how well: Rypkema 2015, sec. 4.1.
 struct PingOptions {
-  enum class Schedule { synchronous, staggered };
-
   double period_s = 30.0;
-  Schedule schedule = Schedule::synchronous;
+  Choice<PingSchedule> schedule{"synchronous"};
   double first_s = 0.0;
   double range_m = 550.0;
-  double sound_speed_m_s = 1500.0;
+  Choice<Propagation> propagation{"straight"};
   double range_sd_m = 1.5;
   double bearing_sd_deg = 5.0;
   double elevation_sd_deg = 5.0;
   double minimum_range_m = 0.5;
-  double loss_probability = 0.0;
+  Choice<PingLoss> loss{"independent"};
   bool identified = true;
   bool carries_state = false;
 
@@ -52,15 +54,18 @@ struct Reception {
   Eigen::Vector2d own_position;
 };
 
-/// The acoustic channel: a sphere of sound grows from where each sender was at emission, and a ping
-/// is received when it passes the receiver, with noise, if it is not lost.
+/// The acoustic channel: a ping spreads from where its sender was at emission, and is received when
+/// its front passes the receiver, with noise, if it is not lost.
 class Channel {
  public:
-  Channel(const PingOptions& options, const RandomStreams& random)
-      : options_(options), random_(random) {}
+  Channel(const PingOptions& options, const RandomStreams& random);
 
-  /// True if this receiver misses this ping.
-  bool loses(const PingUnderway& ping, std::uint32_t receiver) const;
+  /// When a vehicle sends a ping, after so many others of its own.
+  double emission_s(std::size_t vehicle, std::size_t vehicles, std::int64_t emission) const;
+  /// How long a ping may be under way to a receiver in range.
+  double longest_s() const { return propagation_->longest_s(options_.range_m); }
+  /// True if this receiver misses this ping, which it is so far from.
+  bool loses(const PingUnderway& ping, std::uint32_t receiver, double range_m) const;
 
   /// The pings that reach receiver `i` during the tick that ends at `now_s`, in order of arrival,
   /// appended to `received`. The swarm is where it is at `now_s`.
@@ -75,6 +80,9 @@ class Channel {
 
   PingOptions options_;
   RandomStreams random_;
+  std::shared_ptr<const PingSchedule> schedule_;
+  std::shared_ptr<const Propagation> propagation_;
+  std::shared_ptr<const PingLoss> loss_;
 };
 
 }  // namespace shoal::scenarios

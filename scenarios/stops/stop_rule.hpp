@@ -21,6 +21,8 @@ class StopRule {
 
   virtual ~StopRule() = default;
 
+  /// Whether it may end a trial at all.
+  virtual bool watches() const { return true; }
   /// Whether it goes by the formation quality, which an observer of the world must measure.
   virtual bool needs_quality() const = 0;
   /// Why it cannot go by a quality that is measured every so many seconds, or nothing if it can.

@@ -67,4 +67,9 @@ const Register<RegistrationSolver, ClosedForm> registered{
     "procrustes", "closed form, for the loss least_squares (Rypkema 2015, eq. 3.8)"};
 
 }  // namespace
+
+std::unique_ptr<RegistrationSolver> closed_form() {
+  return std::make_unique<ClosedForm>();
+}
+
 }  // namespace shoal::solvers

@@ -3,6 +3,7 @@
 #include <Eigen/Core>
 #include <cstdint>
 #include <limits>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
@@ -60,6 +61,9 @@ class RegistrationSolver {
   /// Why threads that use this solver wait for one another, or nothing if they do not.
   virtual std::optional<std::string> one_at_a_time() const { return std::nullopt; }
 };
+
+/// The closed form of the square, for what is no choice of a user.
+std::unique_ptr<RegistrationSolver> closed_form();
 
 /// Weighted sums of matched pairs, from which the best rigid motion follows in closed form.
 ///

@@ -68,7 +68,7 @@ TEST_F(Claims, HaveOneVerdictAStatementAndColumnCorrectedOverAll) {
   const Table table = claims_table(judgement);
   ASSERT_EQ(table.rows.size(), 5u) << "three statements, and the two parts of one";
   for (const auto& row : table.rows) EXPECT_EQ(row.size(), table.columns.size());
-  EXPECT_FALSE(print(table, TableFormat::latex).empty());
+  EXPECT_FALSE(as_latex(table).empty());
 }
 
 TEST_F(Claims, ThatTheCorrectionLeavesUndecidedSaySo) {

@@ -227,7 +227,7 @@ TEST_F(Corpora, AreSolvedByTheSolversOfTheirFamilies) {
         EXPECT_TRUE(answer.solved()) << name_of(answer.status);
     }
   }
-  const std::string table = print(comparison_table(comparison, 0.01), TableFormat::csv);
+  const std::string table = as_csv(comparison_table(comparison, 0.01));
   EXPECT_EQ(std::ranges::count(table, '\n'), 6) << table;  // newton is in two families
 }
 
@@ -248,7 +248,7 @@ TEST_F(Corpora, GiveProfilesThatRiseToTheShareSolved) {
   SolverComparison comparison(
       {.solvers = {"newton", "nlopt.bobyqa", "grid"}, .reference = "", .options = {}});
   comparison.run(recorded(scenario("attraction_repulsion")));
-  const std::string profiles = print(performance_profiles(comparison), TableFormat::csv);
+  const std::string profiles = as_csv(performance_profiles(comparison));
   EXPECT_NE(profiles.find("solver,evaluations,newton,1,1\n"), std::string::npos);
   EXPECT_NE(profiles.find("solver,evaluations,nlopt.bobyqa,1,0\n"), std::string::npos);
   EXPECT_NE(profiles.find("solver,seconds,nlopt.bobyqa,16384,1\n"), std::string::npos);

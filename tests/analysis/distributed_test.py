@@ -30,7 +30,7 @@ values = [0, 1000000]
 
 
 OWN = """import faulthandler
-faulthandler.dump_traceback_later(40, exit=True)
+faulthandler.dump_traceback_later(100, exit=True)
 import sys
 
 import numpy

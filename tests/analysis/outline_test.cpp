@@ -1,4 +1,4 @@
-#include "shoal/analysis/reporting/outline.hpp"
+#include "shoal/formations/obstacles/outline.hpp"
 
 #include <gtest/gtest.h>
 
@@ -32,7 +32,7 @@ TEST_P(Outline, FollowsTheEdge) {
   const Shape& shape = GetParam();
   const auto obstacle = Registry<formations::Obstacle>::instance().make(
       shape.kind, scenarios::parse_toml(shape.options, "test"), "obstacle");
-  const std::vector<Eigen::Vector2d> polygon = outline(*obstacle);
+  const std::vector<Eigen::Vector2d> polygon = formations::outline(*obstacle);
   const double size = std::sqrt(shape.area);
   for (std::size_t k = 0; k < polygon.size(); ++k) {
     EXPECT_NEAR(obstacle->nearest(polygon[k]).distance, 0.0, 1e-5);

@@ -62,8 +62,17 @@ class Help(Desk):
 
     def test_describe_a_table(self):
         text = self.say("describe", "ping")
-        for part in ["ping.period_s\n", "above 0 s; default 30.0", '"synchronous", "staggered"']:
+        for part in ["ping.period_s\n", "above 0 s; default 30.0", "ping.schedule.kind\n"]:
             self.assertIn(part, text)
+
+    def test_describe_tells_what_pings_and_faults_can_be(self):
+        for choice, members in (("ping.schedule", ["synchronous", "staggered"]),
+                                ("ping.loss", ["independent"]), ("ping.propagation", ["straight"]),
+                                ("faults", ["node_loss"])):
+            text = self.say("describe", choice)
+            for member in members:
+                self.assertIn(f"  {member} ", text)
+        self.assertIn("ping.loss.independent.probability\n", self.say("describe", "independent"))
 
     def test_describe_a_choice_lists_its_members(self):
         for name in ["behaviour", "behaviour.kind"]:

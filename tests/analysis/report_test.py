@@ -131,6 +131,11 @@ class Report(Desk):
             x, y = numpy.array(outline).T
             area = 0.5 * numpy.sum(x * numpy.roll(y, -1) - numpy.roll(x, -1) * y)
             self.assertGreater(area, 0)
+        with netCDF4.Dataset(self.desk / "out" / "run.nc") as record:
+            obstacles = record["obstacles"]
+            self.assertEqual(obstacles["obstacle"][:].tolist(),
+                             [k for k, each in enumerate(outlines, 1) for _ in each])
+            self.assertLess(abs(obstacles["x"][:] - numpy.concatenate(outlines)[:, 0]).max(), 0.06)
 
     def test_vehicles_have_the_colours_of_the_figures(self):
         top = pathlib.Path(__file__).parents[2] / "analysis" / "reporting"

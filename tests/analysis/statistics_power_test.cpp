@@ -94,24 +94,28 @@ TEST(Power, OfTwoPairsIsThatOfTheCauchyDistributionWithoutAnEffect) {
   EXPECT_NEAR(paired_t_power(2, 0.0, 1.0, 1e-6), 1e-6, 1e-15);
 }
 
-using enum PairedTest;
+using SharedTest = std::shared_ptr<const PairedTest>;
+
+const SharedTest sign_flip = Choice<PairedTest>("sign_flip").make();
+const SharedTest wilcoxon = Choice<PairedTest>("wilcoxon").make();
+const SharedTest paired_t = Choice<PairedTest>("paired_t").make();
 
 TEST(LeastPValue, IsWhatTheTestGivesWhenAllDifferencesAgree) {
   for (const int n : {1, 5, 20, 32}) {
     std::vector<double> agreeing;
     for (int i = 1; i <= n; ++i) agreeing.push_back(i);
-    EXPECT_EQ(sign_flip_test(agreeing)->p_value, least_p_value(sign_flip, n));
-    EXPECT_NEAR(signed_rank_test(agreeing)->p_value, least_p_value(wilcoxon, n), 1e-15);
+    EXPECT_EQ(sign_flip_test(agreeing)->p_value, sign_flip->least_p_value(n));
+    EXPECT_NEAR(signed_rank_test(agreeing)->p_value, wilcoxon->least_p_value(n), 1e-15);
   }
-  EXPECT_EQ(least_p_value(paired_t, 5), 0.0);
-  EXPECT_EQ(sign_flip_test(std::vector<double>(40, 1.0))->p_value, least_p_value(sign_flip, 40));
+  EXPECT_EQ(paired_t->least_p_value(5), 0.0);
+  EXPECT_EQ(sign_flip_test(std::vector<double>(40, 1.0))->p_value, sign_flip->least_p_value(40));
 }
 
 TEST(PowerOfExactTests, IsTheShareOfSamplesInWhichTheyReject) {
   std::mt19937 random(7);
   std::normal_distribution<double> normal;
   struct Case {
-    PairedTest test;
+    SharedTest test;
     int n;
     double effect, alpha;
   };
@@ -128,7 +132,7 @@ TEST(PowerOfExactTests, IsTheShareOfSamplesInWhichTheyReject) {
           each.test == sign_flip ? sign_flip_test(sample) : signed_rank_test(sample);
       rejected += result->p_value <= each.alpha ? 1 : 0;
     }
-    const double power = two_sided_power(each.test, each.n, each.effect, each.alpha);
+    const double power = two_sided_power(*each.test, each.n, each.effect, each.alpha);
     // Both are shares of 4000 samples; formulas may be off by a hundredth.
     const double error = std::sqrt(2.0 * power * (1.0 - power) / repetitions);
     EXPECT_NEAR(rejected / static_cast<double>(repetitions), power, 4.0 * error + 0.01)
@@ -137,28 +141,28 @@ TEST(PowerOfExactTests, IsTheShareOfSamplesInWhichTheyReject) {
 }
 
 TEST(PowerOfExactTests, IsNoneBelowTheirFloor) {
-  EXPECT_EQ(two_sided_power(sign_flip, 5, 100.0, 0.05), 0.0);  // 2 / 32
-  EXPECT_EQ(two_sided_power(sign_flip, 6, 100.0, 0.05), 1.0);  // 2 / 64
-  EXPECT_EQ(two_sided_power(wilcoxon, 5, 100.0, 0.05), 0.0);
-  EXPECT_EQ(two_sided_power(wilcoxon, 6, 100.0, 0.05), 1.0);
+  EXPECT_EQ(two_sided_power(*sign_flip, 5, 100.0, 0.05), 0.0);  // 2 / 32
+  EXPECT_EQ(two_sided_power(*sign_flip, 6, 100.0, 0.05), 1.0);  // 2 / 64
+  EXPECT_EQ(two_sided_power(*wilcoxon, 5, 100.0, 0.05), 0.0);
+  EXPECT_EQ(two_sided_power(*wilcoxon, 6, 100.0, 0.05), 1.0);
 }
 
 TEST(Replications, OfExactTestsAreNeverFewerThanTheirFloorAsks) {
   const double never_scatters = std::numeric_limits<double>::infinity();
-  EXPECT_EQ(replications_for(paired_t, never_scatters, 0.05, 0.8), 2);
-  EXPECT_EQ(replications_for(sign_flip, never_scatters, 0.05, 0.8), 6);
-  EXPECT_EQ(replications_for(wilcoxon, never_scatters, 0.05, 0.8), 6);
-  EXPECT_EQ(replications_for(sign_flip, never_scatters, 0.05 / 48.0, 0.8), 11);  // 48 rows, Holm
+  EXPECT_EQ(replications_for(*paired_t, never_scatters, 0.05, 0.8), 2);
+  EXPECT_EQ(replications_for(*sign_flip, never_scatters, 0.05, 0.8), 6);
+  EXPECT_EQ(replications_for(*wilcoxon, never_scatters, 0.05, 0.8), 6);
+  EXPECT_EQ(replications_for(*sign_flip, never_scatters, 0.05 / 48.0, 0.8), 11);  // 48 rows, Holm
   for (const double effect : {0.4, 0.8, 1.6, 5.0}) {
-    const int t = replications_for(paired_t, effect, 0.05, 0.8).value();
-    for (const PairedTest test : {sign_flip, wilcoxon}) {
-      const int n = replications_for(test, effect, 0.05, 0.8).value();
+    const int t = replications_for(*paired_t, effect, 0.05, 0.8).value();
+    for (const SharedTest& test : {sign_flip, wilcoxon}) {
+      const int n = replications_for(*test, effect, 0.05, 0.8).value();
       EXPECT_GE(n, std::max(t, 6)) << effect;
       EXPECT_LE(n, std::max(6.0, 1.1 * t + 3.0)) << effect;
-      EXPECT_GE(two_sided_power(test, n, effect, 0.05), 0.8) << effect;
+      EXPECT_GE(two_sided_power(*test, n, effect, 0.05), 0.8) << effect;
     }
   }
-  EXPECT_FALSE(replications_for(sign_flip, 0.0, 0.05, 0.8, 100));
+  EXPECT_FALSE(replications_for(*sign_flip, 0.0, 0.05, 0.8, 100));
 }
 
 TEST(Power, RefusesWhatIsNoQuestion) {

@@ -83,7 +83,7 @@ TEST_F(Stored, ATableShowsNAndFailuresAndTheBestOnlyIfATestTellsIt) {
   request.measures = {"energy_mean_wh"};
   request.best = Best::lowest;
   request.compare = "behaviour";
-  request.test = PairedTest::paired_t;
+  request.test = "paired_t";
   const Table table = cell_table(request, all);
   ASSERT_EQ(table.rows.size(), 2u);
   const auto& best = std::get<Estimate>(table.rows[0][1]);
@@ -96,7 +96,7 @@ TEST_F(Stored, ATableShowsNAndFailuresAndTheBestOnlyIfATestTellsIt) {
   EXPECT_FALSE(std::get<Estimate>(table.rows[0][2]).best);  // nothing to compare with
 
   // Of five replications no sign-flip test reaches 5 % two-sided: 2 / 32.
-  request.test = PairedTest::sign_flip;
+  request.test = "sign_flip";
   EXPECT_FALSE(std::get<Estimate>(cell_table(request, all).rows[0][1]).best);
 }
 
@@ -231,7 +231,7 @@ TEST_F(Stored, DifferencesThatHardlyVaryHaveATable) {
     const Table table = difference_table(of_pairwise_and_rigid(), all);
     EXPECT_NEAR(std::get<Estimate>(cell_in(table, "difference")).value, 0.0867, 1e-9);
     EXPECT_EQ(std::get<Estimate>(cell_in(table, "replications_needed_t")).value, 2.0) << noise;
-    EXPECT_FALSE(print(table, TableFormat::latex).empty());
+    EXPECT_FALSE(as_latex(table).empty());
   }
 }
 
@@ -256,7 +256,7 @@ measures = ["energy_mean_wh"]
   ASSERT_EQ(tables.size(), 2u);
   EXPECT_EQ(tables[0].rows.size(), 2u);
   EXPECT_EQ(tables[1].columns.front().header, "not computed");
-  EXPECT_FALSE(print(tables[1], TableFormat::latex).empty());
+  EXPECT_FALSE(as_latex(tables[1]).empty());
 }
 
 /// Times to a quality; a negative one is the end of a watch that did not see it.
@@ -294,7 +294,7 @@ TEST_F(StoredTimes, CountWithTheEndOfTheWatchWhereTheEventNeverCame) {
   EXPECT_EQ(mean.value, 2040.0) << "those that reached it took 1000 on average";
   EXPECT_EQ(mean.reached, 3);
   EXPECT_EQ(mean.n, 5);
-  EXPECT_NE(print(table, TableFormat::text).find("(3 of 5)"), std::string::npos);
+  EXPECT_NE(as_text(table).find("(3 of 5)"), std::string::npos);
   EXPECT_TRUE(says(table, "restricted means up to 3600 s"));
   EXPECT_EQ(std::get<Missing>(table.rows[0][2]).not_run, 5);
   EXPECT_EQ(std::get<Missing>(table.rows[0][2]).failed, 0);

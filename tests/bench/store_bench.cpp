@@ -128,7 +128,7 @@ void tabulate(benchmark::State& state, const std::string& tables) {
     const StudyResults results = read_results(list(tables), folder);
     std::size_t letters = 0;
     for (const Table& table : study_tables(results)) {
-      letters += print(table, TableFormat::latex).size();
+      letters += as_latex(table).size();
     }
     benchmark::DoNotOptimize(letters);
   }

@@ -122,12 +122,30 @@ TEST(Channel, AModemMeasuresNoRangeBelowItsShortest) {
 
 TEST(Channel, LosesTheShareOfPingsAskedFor) {
   PingOptions lossy;
-  lossy.loss_probability = 0.3;
+  lossy.loss.setting().tables.at_or_new("independent").at_or_new("probability").value = 0.3;
   const Channel channel(lossy, RandomStreams(3));
   int lost = 0;
-  for (std::uint32_t k = 0; k < 10000; ++k) lost += channel.loses({0, 0, 0, 0.0, 1, k}, 2) ? 1 : 0;
+  for (std::uint32_t k = 0; k < 10000; ++k)
+    lost += channel.loses({0, 0, 0, 0.0, 1, k}, 2, 100.0) ? 1 : 0;
   EXPECT_NEAR(lost / 10000.0, 0.3, 0.015);
-  EXPECT_FALSE(Channel(PingOptions{}, RandomStreams(3)).loses({0, 0, 0, 0.0, 1, 0}, 2));
+  EXPECT_FALSE(Channel(PingOptions{}, RandomStreams(3)).loses({0, 0, 0, 0.0, 1, 0}, 2, 100.0));
+}
+
+/// Pings from afar are missed.
+struct FarLost final : PingLoss {
+  bool loses(const LeavingPing& ping, const RandomStreams&) const override {
+    return ping.range_m > 100.0;
+  }
+  static void declare(Options<FarLost>&) {}
+};
+const Register<PingLoss, FarLost> registered_loss{"test_far_lost", "beyond 100 m"};
+
+TEST(Channel, ALossOfOnesOwnMayGoByTheDistance) {
+  PingOptions options;
+  options.loss = Choice<PingLoss>("test_far_lost");
+  const Channel channel(options, RandomStreams(3));
+  EXPECT_FALSE(channel.loses({0, 0, 0, 0.0, 1, 0}, 2, 99.0));
+  EXPECT_TRUE(channel.loses({0, 0, 0, 0.0, 1, 0}, 2, 101.0));
 }
 
 TEST(Channel, WithoutIdsPingsAreAnonymous) {

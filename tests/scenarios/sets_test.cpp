@@ -69,8 +69,7 @@ Keys options_involved(const std::string& set) {
   const Setting written = with_inherited(read_toml(set_file(set)), files).settings;
   Keys keys;
   for (const Option& option : schema_of<Scenario>().options) {
-    if (option.table && option.name != "faults" && option.name != "waypoint" &&
-        option.name != "swarm") {
+    if (option.table && option.name != "waypoint" && option.name != "swarm") {
       declared(*option.table, written, option.name, keys);
     }
   }

@@ -91,9 +91,10 @@ const Register<formations::Behaviour, RigidTogether> registered{"rigid_together"
 
 TEST(World, VehiclesThatPlanTogetherMoveAsThoseThatPlanAlone) {
   for (const std::string update : {"ping", "tick"}) {
-    const std::vector<std::string> many = with(
-        small, {"plan.square={rows=9,columns=9}", "swarm.start.box.side_m=900",
-                "trial.duration_s=150", "ping.loss_probability=0.3", "planner.update=" + update});
+    const std::vector<std::string> many =
+        with(small, {"plan.square={rows=9,columns=9}", "swarm.start.box.side_m=900",
+                     "trial.duration_s=150", "ping.loss.independent.probability=0.3",
+                     "planner.update=" + update});
     RigidTogether::most = 0;
     EXPECT_EQ(run(scenario_of(with(many, {"behaviour.kind=rigid_together"}))),
               run(scenario_of(with(many, {"behaviour.kind=rigid_registration"}))))
@@ -214,8 +215,27 @@ TEST(World, EveryVehicleMayBeLost) {
   EXPECT_EQ(world.lost_count(), 9u);
 }
 
+/// The two vehicles that come first, at one instant.
+struct PairLost final : Fault {
+  std::int64_t count() const override { return 1; }
+  double every_s() const override { return 100.0; }
+  void lose(std::span<const std::size_t> left, std::size_t, const RandomStreams&,
+            std::vector<std::size_t>& lost) const override {
+    lost.assign(left.begin(), left.begin() + 2);
+  }
+  static void declare(Options<PairLost>&) {}
+};
+const Register<Fault, PairLost> registered_fault{"test_pair_lost", "two vehicles, once"};
+
+TEST(World, AFaultOfOnesOwnMayTakeSeveralVehicles) {
+  World world(scenario_of(with(small, {"faults.kind=test_pair_lost"})));
+  world.run({});
+  EXPECT_EQ(world.lost_count(), 2u);
+  EXPECT_TRUE(world.lost(0) && world.lost(1));
+}
+
 TEST(World, StaggeredPingsAreSpreadOverThePeriod) {
-  World world(scenario_of(with(small, {"ping.schedule=staggered", "trial.duration_s=29"})));
+  World world(scenario_of(with(small, {"ping.schedule.kind=staggered", "trial.duration_s=29"})));
   std::vector<std::int64_t> sent;
   Looker looker(1.0, [&](const World& w) {
     std::int64_t all = 0;

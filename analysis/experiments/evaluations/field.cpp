@@ -9,7 +9,7 @@ using Eigen::Vector2d;
 
 struct FieldEvaluation final : Evaluation {
   std::vector<Column> inputs() const override {
-    return {{"kind", shape_meaning},
+    return {{"kind", shape_meaning()},
             {"cx", "m, x of the obstacle's centre"},
             {"cy", "m, y of the obstacle's centre"},
             {"a", size_meaning},

@@ -6,9 +6,9 @@ namespace {
 
 struct ObstacleEvaluation final : Evaluation {
   std::vector<Column> inputs() const override {
-    return {{"shape", shape_meaning},  {"cx", "m, x of the centre"}, {"cy", "m, y of the centre"},
-            {"a_or_r", size_meaning},  {"b", width_meaning},         {"psi", angle_meaning},
-            {"px", "m, x of a place"}, {"py", "m, y of a place"}};
+    return {{"shape", shape_meaning()}, {"cx", "m, x of the centre"}, {"cy", "m, y of the centre"},
+            {"a_or_r", size_meaning},   {"b", width_meaning},         {"psi", angle_meaning},
+            {"px", "m, x of a place"},  {"py", "m, y of a place"}};
   }
   std::vector<Column> outputs() const override {
     return {{"signed_distance", "m, of the place; negative inside"},

@@ -1,30 +1,56 @@
 #include "shoal/analysis/experiments/evaluations/obstacle_row.hpp"
 
+#include <map>
+
 #include "shoal/analysis/experiments/evaluation.hpp"
+#include "shoal/core/angles.hpp"
 #include "shoal/core/text.hpp"
-#include "shoal/formations/obstacles/shapes.hpp"
 
 namespace shoal::analysis {
+namespace {
 
-using namespace formations;
+const RegistryBase& shapes() {
+  return Registry<formations::Obstacle>::instance();
+}
 
-std::unique_ptr<Obstacle> obstacle_of(const CsvTable& table, std::size_t row,
-                                      const std::string& shape_column,
-                                      const std::string& size_column) {
-  const std::string& shape = table.text(row, shape_column);
-  const Eigen::Vector2d centre(table.number(row, "cx"), table.number(row, "cy"));
-  if (shape == "circle") return std::make_unique<Circle>(centre, positive(table, row, size_column));
-  const bool rectangle = shape == "rectangle" || shape == "rect";
-  if (!rectangle && shape != "ellipse") {
-    const std::vector<std::string> known{"circle", "ellipse", "rectangle"};
-    throw InputError(table.origin(row), shape_column + " is \"" + shape + "\", which is no shape" +
-                                            suggestion(shape, known));
+/// The one shape of that name, or whose name alone begins like that.
+std::string shape_called(const std::string& text, const Origin& origin, const std::string& column) {
+  if (shapes().find(text) != nullptr) return text;
+  std::vector<std::string> meant;
+  for (const std::string& name : shapes().names()) {
+    if (!text.empty() && name.starts_with(text)) meant.push_back(name);
   }
-  const double a = positive(table, row, size_column);
-  const double b = positive(table, row, "b");
-  const double angle = table.number(row, "psi");
-  if (rectangle) return std::make_unique<Rectangle>(centre, a, b, angle);
-  return std::make_unique<Ellipse>(centre, a, b, angle);
+  if (meant.size() == 1) return meant.front();
+  throw InputError(origin, column + " is \"" + text + "\", which is no shape" +
+                               suggestion(text, shapes().names()));
+}
+
+}  // namespace
+
+std::unique_ptr<formations::Obstacle> obstacle_of(const CsvTable& table, std::size_t row,
+                                                  const std::string& shape_column,
+                                                  const std::string& size_column) {
+  const Origin origin = table.origin(row);
+  const std::string shape = shape_called(table.text(row, shape_column), origin, shape_column);
+  constexpr const char* angle = "psi";
+  const std::map<std::string, std::string> columns{
+      {"x_m", "cx"},         {"y_m", "cy"},          {"radius_m", size_column},
+      {"half_width_m", "b"}, {"heading_deg", angle}, {"half_length_m", size_column}};
+  Setting options;
+  options.origin = origin;
+  for (const Option& option : shapes().find(shape)->schema().options) {
+    const auto found = columns.find(option.name);
+    if (found == columns.end()) continue;
+    const std::string& column = found->second;
+    const double number =
+        option.range.contains(0.0) ? table.number(row, column) : positive(table, row, column);
+    options.at_or_new(option.name).value = column == angle ? to_compass_deg(number) : number;
+  }
+  return Registry<formations::Obstacle>::instance().make(shape, options, shape_column);
+}
+
+std::string shape_meaning() {
+  return "one of " + listed(shapes().names()) + ", or how its name begins";
 }
 
 }  // namespace shoal::analysis

@@ -20,12 +20,12 @@ class LossPower final : public Measure {
   }
 
   void begin(const scenarios::World& world) override {
-    const scenarios::NodeLoss& loss = world.scenario().faults.node_loss;
-    if (loss.count == 0) return;
+    const scenarios::Fault& loss = world.fault();
+    if (loss.count() == 0) return;
     every_s_ = log_interval_s(world);
-    window_s_ = std::min(longest_window_s, loss.every_s);
-    for (std::int64_t k = 1; k <= loss.count; ++k) {
-      const double lost_s = static_cast<double>(k) * loss.every_s;
+    window_s_ = std::min(longest_window_s, loss.every_s());
+    for (std::int64_t k = 1; k <= loss.count(); ++k) {
+      const double lost_s = static_cast<double>(k) * loss.every_s();
       for (const double at_s : {lost_s - window_s_, lost_s, lost_s + window_s_}) {
         snapshots_.push_back({at_s, {}});
       }

@@ -17,12 +17,12 @@ class Mission final : public Measure {
 
   void finish(const scenarios::World& w, Results& results) const override {
     results.add("mission_s", w.time_s());
-    const std::string& rule = w.scenario().stop.kind();
+    const bool watched = w.stop().watches();
     const auto mission_if = [&](bool held) {
       return held ? std::optional(w.time_s()) : std::nullopt;
     };
-    results.add("stop_watched_s", mission_if(rule != "duration"));
-    results.add("stopped_s", mission_if(rule != "duration" && w.stopped_by() == rule));
+    results.add("stop_watched_s", mission_if(watched));
+    results.add("stopped_s", mission_if(watched && w.stopped_by() == w.scenario().stop.kind()));
   }
 };
 

@@ -89,7 +89,9 @@ class AttributionTable {
     minus_ = request.minus.empty() ? group_ : place_of(request.minus, request, list);
     const TrialGroup& group = list.groups()[group_];
     if (group.sampled()) {
-      throw InputError(request.origin, "an attribution needs design.kind = \"grid\"");
+      throw InputError(request.origin,
+                       "an attribution needs all combinations of levels, and the design " +
+                           group.group().design.kind() + " draws its cells; leave it out");
     }
     if (list.groups()[minus_].replications() != group.replications()) {
       throw InputError(request.origin, "the groups of an attribution differ in replications");

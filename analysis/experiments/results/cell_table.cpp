@@ -29,7 +29,11 @@ using Place = std::vector<std::size_t>;
 class CellTable {
  public:
   CellTable(const TableRequest& request, const StudyResults& results)
-      : request_(request), results_(results), slices_(results, scope_of(request)) {
+      : request_(request),
+        statistic_(Choice<Statistic>(request.statistic).make()),
+        test_(Choice<PairedTest>(request.test).make()),
+        results_(results),
+        slices_(results, scope_of(request)) {
     // Kept dimensions come as named: columns first, then rows, then what was not named.
     columns_ = request.columns.size();
     for (const std::string& name : request.measures)
@@ -135,17 +139,17 @@ class CellTable {
 
   Cell cell(const Place& place, std::size_t quantity, std::size_t step) {
     const Sample sample = slices_.sample(place, question(quantity, step));
-    Cell cell = cell_of(sample, request_.statistic);
+    Cell cell = cell_of(sample, *statistic_);
     if (auto* estimate = std::get_if<Estimate>(&cell)) {
       estimate->best = best_.contains({place, quantity, step});
-      if (sample.times && request_.statistic != Statistic::count) {
+      if (sample.times && statistic_->is_of_values()) {
         events_ = true;
         if (std::isfinite(sample.horizon())) horizons_.insert(sample.horizon());
       }
       ++cells_;
-      const auto said = request_.statistic == Statistic::count
-                            ? std::nullopt
-                            : remark_on_shape(sample.restricted(sample.horizon()));
+      const auto said = statistic_->is_of_values()
+                            ? remark_on_shape(sample.restricted(sample.horizon()))
+                            : std::nullopt;
       if (said) ++remarked_;
       // Against time, marks and points would be more than one could read.
       if (said && request_.series.empty()) estimate->remarks.push_back(*said);
@@ -235,11 +239,11 @@ class CellTable {
       }
     }
     std::vector<double> p_values;
-    for (const std::optional<double>& p : paired_p_values(differences, request_.test)) {
+    for (const std::optional<double>& p : paired_p_values(differences, *test_)) {
       p_values.push_back(p.value_or(1.0));
     }
     const std::vector<double> adjusted = statistics::holm(p_values);
-    floor_ = note_on_floor(differences, request_.test);
+    floor_ = note_on_floor(differences, *test_);
     for (const Contest& contest : contests) {
       const auto first = adjusted.begin() + static_cast<std::ptrdiff_t>(contest.first_test);
       const bool known = std::all_of(first, first + static_cast<std::ptrdiff_t>(contest.tests),
@@ -249,7 +253,7 @@ class CellTable {
   }
 
   void add_notes(Table& table) const {
-    std::string notes = note_on(request_.statistic);
+    std::string notes = statistic_->note();
     if (columns_ > 0 && quantities_.size() == 1) {
       const Quantity& quantity = quantities_.front();
       notes = quantity.name + ": " + quantity.meaning +
@@ -259,7 +263,7 @@ class CellTable {
     if (compare_) {
       table.notes.push_back(
           "Best: " + std::string(request_.best == Best::lowest ? "the lowest" : "the highest") +
-          " mean over " + request_.compare + ", where a " + std::string(name_of(request_.test)) +
+          " mean over " + request_.compare + ", where a " + test_->title() +
           " test of paired differences, corrected by Holm over the table, tells it "
           "from all others at 5 %.");
       if (floor_) table.notes.push_back(*floor_);
@@ -286,6 +290,8 @@ class CellTable {
   }
 
   const TableRequest& request_;
+  std::unique_ptr<Statistic> statistic_;
+  std::unique_ptr<PairedTest> test_;
   const StudyResults& results_;
   Slices slices_;
   std::size_t columns_ = 0;

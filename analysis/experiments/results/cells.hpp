@@ -5,6 +5,7 @@
 
 #include "shoal/analysis/experiments/measure.hpp"
 #include "shoal/analysis/experiments/results/slices.hpp"
+#include "shoal/analysis/experiments/statistic.hpp"
 #include "shoal/analysis/experiments/study/study.hpp"
 #include "shoal/analysis/tables/table.hpp"
 
@@ -12,12 +13,7 @@ namespace shoal::analysis {
 
 /// What the cells of a table hold: the statistic over a sample; missing where it has no value.
 /// Times of events are restricted to the sample's horizon.
-Cell cell_of(const Sample& sample, Statistic statistic);
-/// The same of plain values.
-Cell cell_of(const std::vector<double>& values, Statistic statistic);
-
-/// What a note says of a statistic: `Means.`
-std::string note_on(Statistic statistic);
+Cell cell_of(const Sample& sample, const Statistic& statistic);
 
 /// What a note says of times to an event that some trials never saw.
 std::string note_on_events();

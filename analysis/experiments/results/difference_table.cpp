@@ -36,19 +36,10 @@ struct Compared {
   statistics::Differences differences;
 };
 
-/// The test beside the one that was asked for: an exact one, or Student's.
-PairedTest other_of(PairedTest test) {
-  return test == PairedTest::paired_t ? PairedTest::sign_flip : PairedTest::paired_t;
-}
-
-std::string short_name(PairedTest test) {
-  return test == PairedTest::paired_t ? "t" : std::string(name_of(test));
-}
-
 class DifferenceTable {
  public:
   DifferenceTable(const ComparisonRequest& request, const StudyResults& results)
-      : request_(request) {
+      : request_(request), test_(Choice<PairedTest>(request.test).make()), other_(test_->beside()) {
     find_rows(Slices(results, {request.groups,
                                CellSelection(request.where),
                                {request.factor},
@@ -63,13 +54,12 @@ class DifferenceTable {
   Table table() {
     Table table{request_.name, request_.caption, head_, {}, {}};
     for (const Compared& row : rows_) table.rows.push_back(row.labels);
-    const PairedTest test = request_.test, other = other_of(test);
     add(table, {.header = "difference"}, [&](const Compared& row) { return difference(row); });
-    add_p_values(table, {.header = "p", .name = "p_value"}, test);
+    add_p_values(table, {.header = "p", .name = "p_value"}, *test_);
     add_p_values(table,
-                 {.header = "p (" + short_name(other) + ")",
-                  .name = other == PairedTest::paired_t ? "p_value_t" : "p_value_exact"},
-                 other);
+                 {.header = "p (" + other_->short_title() + ")",
+                  .name = "p_value_" + other_->column_ending()},
+                 *other_);
     if (times_) add_log_ranks(table);
     add(table, {.header = "effect", .name = "hedges_g_z"}, [&](const Compared& row) {
       return number_or_missing(statistics::hedges_g_z(row.differences), Digits::decimals(2));
@@ -78,12 +68,11 @@ class DifferenceTable {
       return number_or_missing(statistics::rank_biserial_correlation(row.differences),
                                Digits::decimals(2));
     });
-    add_needed(table, {.header = "needed", .name = "replications_needed"}, test);
+    add_needed(table, {.header = "needed", .name = "replications_needed"}, *test_);
     add_needed(table,
-               {.header = "needed (" + short_name(other) + ")",
-                .name = other == PairedTest::paired_t ? "replications_needed_t"
-                                                      : "replications_needed_exact"},
-               other);
+               {.header = "needed (" + other_->short_title() + ")",
+                .name = "replications_needed_" + other_->column_ending()},
+               *other_);
     add_notes(table);
     return table;
   }
@@ -154,7 +143,7 @@ class DifferenceTable {
     }
   }
 
-  void add_p_values(Table& table, const Column& column, PairedTest test) const {
+  void add_p_values(Table& table, const Column& column, const PairedTest& test) const {
     add_corrected(table, column, paired_p_values(differences(), test),
                   [&](std::size_t i, double p) -> std::optional<std::string> {
                     if (!at_floor(p, rows_[i].differences, test)) return std::nullopt;
@@ -177,7 +166,8 @@ class DifferenceTable {
   }
 
   static Cell difference(const Compared& row) {
-    Cell cell = cell_of(row.differences.values(), Statistic::mean_ci);
+    Cell cell = Missing{};
+    if (!row.differences.empty()) cell = mean_with_interval(row.differences.values());
     const int failed = row.ours.failed + row.theirs.failed;
     const int not_run = row.ours.not_run + row.theirs.not_run;
     auto* estimate = std::get_if<Estimate>(&cell);
@@ -200,7 +190,7 @@ class DifferenceTable {
     return cell;
   }
 
-  void add_needed(Table& table, const Column& column, PairedTest test) const {
+  void add_needed(Table& table, const Column& column, const PairedTest& test) const {
     std::vector<Cell> needed(rows_.size(), Missing{});
     tbb::parallel_for(std::size_t{0}, rows_.size(), [&](std::size_t i) {
       const Compared& row = rows_[i];
@@ -227,20 +217,19 @@ class DifferenceTable {
   }
 
   void add_notes(Table& table) const {
-    const PairedTest test = request_.test, other = other_of(test);
     table.notes.push_back("Differences from " + request_.reference +
                           ", seed by seed: mean and half the 95 % confidence interval (Student).");
     table.notes.push_back(fmt::format(
         "p: {} test, p ({}): {} test, both corrected by Holm over the table. effect: mean / "
         "standard deviation (Hedges' g_z); rank: rank-biserial correlation.",
-        name_of(test), short_name(other), name_of(other)));
-    for (const PairedTest each : {test, other}) {
-      if (const auto note = note_on_floor(differences(), each)) table.notes.push_back(*note);
+        test_->title(), other_->short_title(), other_->title()));
+    for (const PairedTest* each : {test_.get(), other_.get()}) {
+      if (const auto note = note_on_floor(differences(), *each)) table.notes.push_back(*note);
     }
     table.notes.push_back(fmt::format(
         "needed: replications with which the {} test (and the {} test) would show a difference of "
         "{} % of the mean of {} with a chance of 80 %, at 5 %{}; a dash where 10,000 would not.",
-        name_of(test), name_of(other), shortest(request_.resolve_percent), request_.reference,
+        test_->title(), other_->title(), shortest(request_.resolve_percent), request_.reference,
         tested_ > 1.0 ? fmt::format(" corrected for all {:.0f} comparisons", tested_) : ""));
     if (times_) table.notes.push_back(note_on_events());
     const bool remarked = std::ranges::any_of(rows_, [](const Compared& row) {
@@ -250,6 +239,7 @@ class DifferenceTable {
   }
 
   const ComparisonRequest& request_;
+  std::unique_ptr<PairedTest> test_, other_;
   std::vector<Column> head_;
   std::vector<Compared> rows_;
   double tested_ = 0.0;

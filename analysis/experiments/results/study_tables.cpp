@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <iterator>
+#include <map>
 #include <new>
 #include <set>
 
@@ -12,6 +13,7 @@
 #include "shoal/analysis/experiments/results/sensitivity_table.hpp"
 #include "shoal/analysis/experiments/study/needed_series.hpp"
 #include "shoal/analysis/experiments/trial.hpp"
+#include "shoal/analysis/tables/table_format.hpp"
 #include "shoal/core/whole_file.hpp"
 
 namespace shoal::analysis {
@@ -45,6 +47,19 @@ std::vector<std::string> needed_measures(const Study& study) {
     if (!asked->minus.empty()) names.insert(asked->minus);
   }
   return {names.begin(), names.end()};
+}
+
+/// By the ending of their files, the formats that tables are written in.
+using FormatsOfFiles = std::map<std::string, std::unique_ptr<TableFormat>>;
+
+FormatsOfFiles formats_of_files() {
+  FormatsOfFiles formats;
+  for (const std::string& name : Registry<TableFormat>::instance().names()) {
+    auto format = table_format(name);
+    const std::string ending = format->file_ending();
+    if (!ending.empty()) formats.emplace(ending, std::move(format));
+  }
+  return formats;
 }
 
 /// The tables that `make` makes. Numbers that a statistic cannot take are no reason to lose the
@@ -114,24 +129,28 @@ std::vector<Table> study_tables(const StudyResults& results) {
   return tables;
 }
 
+std::vector<std::string> file_endings_of_tables() {
+  std::vector<std::string> endings;
+  for (const auto& [ending, format] : formats_of_files()) endings.push_back(ending);
+  return endings;
+}
+
 std::size_t write_tables(std::vector<Table> tables, const Judgement& claims,
                          const fs::path& folder) {
   if (!claims.statements.empty()) tables.push_back(claims_table(claims));
   const fs::path place = folder / "tables";
+  const FormatsOfFiles formats = formats_of_files();
   require_writable(place);
   std::set<fs::path> written;
   for (const Table& table : tables) {
-    for (const auto& [extension, format] :
-         {std::pair{".tex", TableFormat::latex}, std::pair{".csv", TableFormat::csv},
-          std::pair{".md", TableFormat::markdown}}) {
-      const fs::path file = place / (table.name + extension);
-      write_whole_file(file, print(table, format));
+    for (const auto& [ending, format] : formats) {
+      const fs::path file = place / (table.name + ending);
+      write_whole_file(file, format->print(table));
       written.insert(file);
     }
   }
   for (const fs::directory_entry& entry : fs::directory_iterator(place)) {
-    const fs::path extension = entry.path().extension();
-    const bool a_table = extension == ".tex" || extension == ".csv" || extension == ".md";
+    const bool a_table = formats.contains(entry.path().extension().string());
     if (a_table && !written.contains(entry.path())) fs::remove(entry.path());
   }
   return tables.size();

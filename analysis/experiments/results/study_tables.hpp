@@ -21,8 +21,11 @@ std::size_t require_answerable(const TrialList& list);
 /// group: every factor in the rows, a few measures in the columns. Throws InputError.
 std::vector<Table> study_tables(const StudyResults& results);
 
-/// Writes tables/NAME.{tex,csv,md} into the folder, that of the claims (if any) last, and takes
-/// away what earlier tables left there. Returns how many tables there are.
+/// How the files of a table end: one for each format that has files.
+std::vector<std::string> file_endings_of_tables();
+
+/// Writes tables/NAME.ENDING of each table into the folder, that of the claims (if any) last, and
+/// takes away what earlier tables left there. Returns how many tables there are.
 std::size_t write_tables(std::vector<Table> tables, const Judgement& claims,
                          const std::filesystem::path& folder);
 

@@ -5,6 +5,7 @@
 #include <set>
 
 #include "shoal/analysis/experiments/measure.hpp"
+#include "shoal/analysis/experiments/statistic.hpp"
 #include "shoal/analysis/experiments/study/renamed_keys.hpp"
 #include "shoal/core/text.hpp"
 #include "shoal/scenarios/library_path.hpp"
@@ -114,13 +115,22 @@ void declare_cells(Options<Request>& o) {
   o.setting("where", &Request::where, "a table: factor = label or labels", "only these cells");
 }
 
+/// What is wrong with the name of a member that has no options.
+std::optional<std::string> member_complaint(const RegistryBase& family, const std::string& option,
+                                            const std::string& name) {
+  if (family.find(name) != nullptr) return std::nullopt;
+  return option + " has no value \"" + name + '"' + suggestion(name, family.names());
+}
+
+std::optional<std::string> test_complaint(const std::string& test) {
+  return member_complaint(Registry<PairedTest>::instance(), "test", test);
+}
+
 template <class Request>
 void declare_test(Options<Request>& o) {
-  o.word("test", &Request::test,
-         {{"sign_flip", PairedTest::sign_flip},
-          {"wilcoxon", PairedTest::wilcoxon},
-          {"paired_t", PairedTest::paired_t}},
-         "test of paired differences, corrected by Holm over the whole table");
+  o.text("test", &Request::test,
+         "test of paired differences (shoal list paired_tests), corrected by Holm over the whole "
+         "table");
 }
 
 }  // namespace
@@ -165,15 +175,8 @@ void TableRequest::declare(Options<TableRequest>& o) {
   o.texts("series", &T::series, "what is shown against time, in rows, instead of measures");
   o.number("every", &T::every, "", above(0), "step of the rows of a series (s, or as `against`)");
   o.text("against", &T::against, "the series that stands in the rows; default: time");
-  o.word("statistic", &T::statistic,
-         {{"mean", Statistic::mean},
-          {"mean +- ci95", Statistic::mean_ci},
-          {"mean +- sd", Statistic::mean_sd},
-          {"mean [min, max]", Statistic::mean_range},
-          {"mean [bca95]", Statistic::mean_bca},
-          {"median [q1, q3]", Statistic::median_quartiles},
-          {"n", Statistic::count}},
-         "what stands in a cell, over replications");
+  o.text("statistic", &T::statistic,
+         "what stands in a cell, over replications (shoal list statistics)");
   o.word("best", &T::best,
          {{"none", Best::none}, {"lowest", Best::lowest}, {"highest", Best::highest}},
          "the value set in bold where a test corrected over the table tells it from all others");
@@ -183,6 +186,9 @@ void TableRequest::declare(Options<TableRequest>& o) {
 
 std::optional<std::string> TableRequest::complaint() const {
   if (auto wrong = name_complaint(name, "a table")) return wrong;
+  const auto& statistics = Registry<Statistic>::instance();
+  if (auto wrong = member_complaint(statistics, "statistic", statistic)) return wrong;
+  if (auto wrong = test_complaint(test)) return wrong;
   if (measures.empty() == series.empty()) return "a table takes measures or series";
   if (!series.empty() && every == 0.0) return "a table of series needs every: the step of its rows";
   if (series.empty() && (every != 0.0 || !against.empty())) {
@@ -208,6 +214,7 @@ void ComparisonRequest::declare(Options<ComparisonRequest>& o) {
 
 std::optional<std::string> ComparisonRequest::complaint() const {
   if (auto wrong = name_complaint(name, "a comparison")) return wrong;
+  if (auto wrong = test_complaint(test)) return wrong;
   if (factor.empty() || reference.empty()) return "a comparison needs factor and reference";
   if (measures.empty()) return "a comparison needs measures";
   return std::nullopt;

@@ -9,7 +9,7 @@
 #include "shoal/analysis/experiments/claims/claim_request.hpp"
 #include "shoal/analysis/experiments/study/factor.hpp"
 #include "shoal/analysis/statistics/design.hpp"
-#include "shoal/analysis/statistics/paired_tests.hpp"
+#include "shoal/analysis/statistics/paired_test.hpp"
 #include "shoal/core/registry.hpp"
 
 namespace shoal::analysis {
@@ -30,17 +30,6 @@ struct Group {
   std::optional<std::string> complaint() const;
 };
 
-/// What stands in a cell of a table, of the values that its replications gave.
-enum class Statistic {
-  mean,
-  mean_ci,     ///< mean +- half the width of Student's 95 % confidence interval
-  mean_sd,     ///< mean +- standard deviation
-  mean_range,  ///< mean [least, greatest]: the envelope of the trials
-  mean_bca,    ///< mean [95 % interval of the bias-corrected and accelerated bootstrap]
-  median_quartiles,
-  count,
-};
-
 enum class Best { none, lowest, highest };
 
 using statistics::PairedTest;
@@ -56,10 +45,10 @@ struct TableRequest {
   double every = 0.0;               ///< of time, or of what the series stands against
   std::string against;              ///< another series; default: time
   std::vector<std::string> pool;    ///< factors whose levels are taken together
-  Statistic statistic = Statistic::mean_ci;
+  std::string statistic = "mean +- ci95";
   Best best = Best::none;
   std::string compare;  ///< the factor whose levels compete for the best value
-  PairedTest test = PairedTest::sign_flip;
+  std::string test = "sign_flip";
   Origin origin;
 
   static constexpr const char* noun = "a table";
@@ -74,7 +63,7 @@ struct ComparisonRequest {
   Setting where;
   std::string factor, reference;
   std::vector<std::string> measures;
-  PairedTest test = PairedTest::sign_flip;
+  std::string test = "sign_flip";
   double resolve_percent = 5.0;  ///< the difference, in percent of the reference's mean, for which
                                  ///< the number of replications is printed
   Origin origin;
@@ -84,7 +73,7 @@ struct ComparisonRequest {
   std::optional<std::string> complaint() const;
 };
 
-/// A table of sensitivity indices of a group with the design `saltelli` or `morris`.
+/// A table of sensitivities to the factors of a group, whose design was made for that.
 struct SensitivityRequest {
   std::string name, caption;
   std::string group;

@@ -64,7 +64,7 @@ std::vector<CellSelection> exclusions(const Group& group) {
 }  // namespace
 
 TrialGroup::TrialGroup(const Group& group, std::int64_t replications)
-    : group_(group), replications_(replications), sampled_(group.design.kind() != "grid") {
+    : group_(group), replications_(replications), sampled_(group.design.make()->draws()) {
   if (sampled_) {
     columns_.emplace_back(sample_column);
     units_.emplace_back();

@@ -20,25 +20,28 @@ except ImportError:
     shoal = None
 
 
-def attraction_repulsion(run):
-    """The options of that behaviour, if it is the one of the run."""
-    behaviour = run.scenario["behaviour"]
-    if shoal is None or behaviour["kind"] != "attraction_repulsion":
+def behaviour_with_potential(run):
+    """(behaviour, its options, its pair potential), if it has one that is known here."""
+    kind = run.scenario["behaviour"]["kind"]
+    options = run.scenario["behaviour"].get(kind, {})
+    if shoal is None or "separation_m" not in options:
         return None
-    options = behaviour["attraction_repulsion"]
-    # A Python function is known only to the program that ran it.
-    return None if options["potential"]["kind"] == "python" else options
+    law = options.get("potential", {})
+    try:
+        return kind, options, shoal.potential(law["kind"], **law.get(law["kind"], {}))
+    except (KeyError, shoal.InputError):  # a function or a plug-in of the program that ran it
+        return None
 
 
 def potential(run):
     """The pair potential, its slope and its curvature: Rypkema 2015, figure 3.6 (which draws the
     slope below)."""
-    options = attraction_repulsion(run)
-    if options is None:
+    found = behaviour_with_potential(run)
+    if found is None:
         return None
-    kind, s = options["potential"]["kind"], options["separation_m"]
+    _, options, law = found
+    s = options["separation_m"]
     r = numpy.linspace(0.35 * s, 2.2 * s, 600)
-    law = shoal.potential(kind, **options["potential"].get(kind, {}))
     figure, axes = plt.subplots(3, 1, sharex=True)
     figure.set_figheight(1.6 * figure.get_figheight())
     labels = ("Value", "Slope (1/m)", "Curvature (1/m²)")
@@ -55,9 +58,10 @@ def potential(run):
 def cost_surface(run):
     """The cost that the first vehicle meets at the end of the run, by where it would go, and where
     its target says: Rypkema 2015, figure 3.7."""
-    options = attraction_repulsion(run)
-    if options is None:
+    found = behaviour_with_potential(run)
+    if found is None:
         return None
+    kind, options, _ = found
     x, y = run.by_vehicle("x")[-1], run.by_vehicle("y")[-1]
     left = numpy.flatnonzero(numpy.isfinite(x))
     if len(left) < 2:
@@ -65,7 +69,7 @@ def cost_surface(run):
     own, others = left[0], left[1:]
     neighbours = numpy.column_stack([x[others] - x[own], y[others] - y[own]])
     plan = shoal.Plan([[0, 0], [options["separation_m"], 0]])
-    posed = shoal.posed("attraction_repulsion", options, neighbours, plan)
+    posed = shoal.posed(kind, options, neighbours, plan)
     if not posed:
         return None
     problem = posed[0]
@@ -142,7 +146,7 @@ def filter_lag(run):
 
 def current(run):
     """The current where the swarm went, in the middle of its mission: Rypkema 2015, figure 4.3."""
-    if shoal is None or run.scenario["current"]["kind"] == "none":
+    if shoal is None:
         return None
     x, y = run.by_vehicle("x"), run.by_vehicle("y")
     figure, axes, _ = over_ground.plane(run, x, y)

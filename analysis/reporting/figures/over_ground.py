@@ -1,7 +1,5 @@
 """Figures of the plane: where vehicles went."""
 
-import math
-
 import legends
 import matplotlib.patches
 import matplotlib.pyplot as plt
@@ -24,10 +22,10 @@ def plane(run, x, y):
         marks = axes.plot(*run.waypoint, marker="*", color="black", markersize=7, linestyle="none",
                           label="waypoint", zorder=4)
         shown.append([run.waypoint])
-    for kind, options in run.obstacles:
-        patch = axes.add_patch(shape(kind, options))
-        outline = patch.get_path().transformed(patch.get_patch_transform())
-        shown.append(outline.get_extents().get_points())
+    for outline in run.obstacles:
+        axes.add_patch(matplotlib.patches.Polygon(outline, facecolor=style.GROUND, edgecolor="none",
+                                                  zorder=1))
+        shown.append(outline)
     show(figure, axes, numpy.concatenate(shown))
     return figure, axes, marks
 
@@ -44,21 +42,6 @@ def show(figure, axes, places):
     height = (width - BESIDE_IN) * (high[1] - low[1]) / (high[0] - low[0])
     most = 0.7 * width if style.wide() else width
     figure.set_figheight(min(max(height, 0.3 * width), most) + BELOW_IN)
-
-
-def shape(kind, options):
-    looks = {"facecolor": style.GROUND, "edgecolor": "none", "zorder": 1}
-    middle = (options["x_m"], options["y_m"])
-    if kind == "circle":
-        return matplotlib.patches.Circle(middle, options["radius_m"], **looks)
-    angle = 90.0 - options["heading_deg"]  # counter-clockwise from east
-    length, width = 2 * options["half_length_m"], 2 * options["half_width_m"]
-    if kind == "ellipse":
-        return matplotlib.patches.Ellipse(middle, length, width, angle=angle, **looks)
-    turn = math.radians(angle)
-    corner = (middle[0] - 0.5 * (length * math.cos(turn) - width * math.sin(turn)),
-              middle[1] - 0.5 * (length * math.sin(turn) + width * math.cos(turn)))
-    return matplotlib.patches.Rectangle(corner, length, width, angle=angle, **looks)
 
 
 def trajectories(run):

@@ -28,6 +28,7 @@ class RecordedRun:
         self._file = folder / "run.nc"
         with opened(self._file) as record:
             self._vehicles = vehicles_of(record.variables, self._file)
+            self.obstacles = outlines_of(record.groups, self._file)
         self.time_s = self._vehicles.pop("time")
         with opened(folder / "series.nc") as record:
             self._series = series_of(record.variables, folder / "series.nc")
@@ -51,12 +52,6 @@ class RecordedRun:
         last = len(x) - 1 - numpy.argmax(known[::-1], axis=0)
         vehicles = numpy.arange(x.shape[1])
         return x[last, vehicles], y[last, vehicles], ~known[-1]
-
-    @property
-    def obstacles(self):
-        """(shape, its options) of each."""
-        return [(o["shape"]["kind"], o["shape"][o["shape"]["kind"]])
-                for o in self.scenario.get("obstacle", [])]
 
     @property
     def waypoint(self):
@@ -89,6 +84,18 @@ def vehicles_of(variables, file):
             raise NoRun(f"{file} holds no {what}; run the trial again")
     names = ["time", *(name for name in variables if is_along(variables, name, ("vehicle", "time")))]
     return {name: possible(name, variables[name], file) for name in names}
+
+
+def outlines_of(groups, file):
+    """The edge of each obstacle as a polygon: rows of east and north."""
+    if "obstacles" not in groups:
+        return []
+    variables = groups["obstacles"].variables
+    names = ("obstacle", "x", "y")
+    if not all(is_along(variables, name, ("corner",)) for name in names):
+        raise NoRun(f"{file} has obstacles without corners, as in no run of shoal; run the trial again")
+    number, x, y = (possible(name, variables[name], file) for name in names)
+    return [numpy.column_stack([x, y])[number == each] for each in numpy.unique(number)]
 
 
 def series_of(variables, file):

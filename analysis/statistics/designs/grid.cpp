@@ -9,6 +9,8 @@ struct Grid final : Design {
 
   static void declare(Options<Grid>&) {}
 
+  bool draws() const override { return false; }
+
   Eigen::MatrixXd cells(std::span<const int> levels) const override {
     double count = 1.0;
     for (const int n : levels) {
@@ -21,7 +23,7 @@ struct Grid final : Design {
     if (count > most_cells) {
       throw InputError(origin,
                        "the grid has more than 10 million cells; leave out levels, or use "
-                       "design.kind = \"latin_hypercube\"");
+                       "a design that draws its cells (shoal list designs)");
     }
     Eigen::MatrixXd cells(static_cast<Eigen::Index>(count), levels.size());
     Eigen::Index run = 1;  // how many cells in a row share a level

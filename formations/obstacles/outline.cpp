@@ -1,14 +1,14 @@
-#include "shoal/analysis/reporting/outline.hpp"
+#include "shoal/formations/obstacles/outline.hpp"
 
 #include <cmath>
 #include <numbers>
 
-namespace shoal::analysis {
+namespace shoal::formations {
 namespace {
 
 /// Where a ray from the centre leaves the obstacle: no point nearer than the edge's distance is
 /// beyond it, so that one may go as far at a time.
-Eigen::Vector2d edge_towards(const formations::Obstacle& obstacle, double angle) {
+Eigen::Vector2d edge_towards(const Obstacle& obstacle, double angle) {
   const Eigen::Vector2d centre = obstacle.centre();
   const Eigen::Vector2d along(std::cos(angle), std::sin(angle));
   double gone = 0.0;
@@ -21,9 +21,8 @@ Eigen::Vector2d edge_towards(const formations::Obstacle& obstacle, double angle)
 }
 
 /// Adds what lies between two directions, without either, until chords follow the edge.
-void refine(const formations::Obstacle& obstacle, double from, const Eigen::Vector2d& first,
-            double to, const Eigen::Vector2d& last, int depth,
-            std::vector<Eigen::Vector2d>& polygon) {
+void refine(const Obstacle& obstacle, double from, const Eigen::Vector2d& first, double to,
+            const Eigen::Vector2d& last, int depth, std::vector<Eigen::Vector2d>& polygon) {
   const double middle = 0.5 * (from + to);
   const Eigen::Vector2d edge = edge_towards(obstacle, middle);
   const Eigen::Vector2d chord = last - first;
@@ -39,7 +38,7 @@ void refine(const formations::Obstacle& obstacle, double from, const Eigen::Vect
 
 }  // namespace
 
-std::vector<Eigen::Vector2d> outline(const formations::Obstacle& obstacle) {
+std::vector<Eigen::Vector2d> outline(const Obstacle& obstacle) {
   constexpr int directions = 24;
   constexpr double turn = 2.0 * std::numbers::pi / directions;
   std::vector<Eigen::Vector2d> polygon;
@@ -52,4 +51,4 @@ std::vector<Eigen::Vector2d> outline(const formations::Obstacle& obstacle) {
   return polygon;
 }
 
-}  // namespace shoal::analysis
+}  // namespace shoal::formations
