@@ -4,6 +4,7 @@
 
 #include "commands.hpp"
 #include "shoal/analysis/experiments/claims/claim_text.hpp"
+#include "shoal/analysis/experiments/results/study_tables.hpp"
 #include "shoal/analysis/tables/latex_signs.hpp"
 #include "shoal/core/text.hpp"
 #include "show_tables.hpp"

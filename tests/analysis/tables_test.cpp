@@ -195,7 +195,7 @@ TEST(Tables, PartedForLatexHaveTheirNotesOnceBelowTheLastPart) {
     table.columns.push_back({"a header of some " + std::to_string(k)});
     table.rows[0].push_back(Estimate{.value = 1.0 + k, .n = 5, .failed = k == 0 || k == 9 ? 1 : 0});
   }
-  const std::string printed = print(table, latex);
+  const std::string printed = as_latex(table);
   const std::string notes =
       "    Mean.\\par\n    n = 5 unless marked.\\par\n"
       "    \\mbox{\\textsuperscript{a}\\,n = 5, 1 failed.}\\quad\n  "
