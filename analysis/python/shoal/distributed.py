@@ -53,7 +53,7 @@ def sweep(study: str | os.PathLike[str] | Mapping[str, Any], client: Client,
     batch = _arguments.whole(batch, "batch", 1)
     progress = _arguments.function(progress, "progress")
     open_sweep, folder = opened(study, client, out, replications, rerun_changed, retry_failed)
-    run(open_sweep, client, batch, None if progress is None else lambda: progress(open_sweep.progress()))
+    run(open_sweep, client, batch, progress and (lambda: progress(open_sweep.progress())))
     _shoal.SweptStudy(folder).write_tables()
     return trials(folder)
 
