@@ -53,7 +53,7 @@ def sweep(study: str | os.PathLike[str] | Mapping[str, Any], client: Client,
     batch = _arguments.whole(batch, "batch", 1)
     progress = _arguments.function(progress, "progress")
     open_sweep, folder = opened(study, client, out, replications, rerun_changed, retry_failed)
-    run(open_sweep, client, batch, progress and (lambda: progress(open_sweep.progress())))
+    run(open_sweep, client, batch, progress)
     _shoal.SweptStudy(folder).write_tables()
     return trials(folder)
 
@@ -70,8 +70,8 @@ def opened(study: str | os.PathLike[str] | Mapping[str, Any], client: Client,
 
 
 def run(open_sweep: _shoal.OpenSweep, client: Client, batch: int,
-        stored: Callable[[], None] | None = None) -> None:
-    """Has the trials of an open sweep run, and stores them. stored: called after each task."""
+        progress: Callable[[dict[str, Any]], None] | None) -> None:
+    """Has the trials of an open sweep run, and stores them."""
     from distributed import as_completed
     from distributed.scheduler import KilledWorker
 
@@ -106,8 +106,8 @@ def run(open_sweep: _shoal.OpenSweep, client: Client, batch: int,
                 raise _shoal.SystemError("the scheduler of dask is lost" + AGAIN)
             for index, answer in zip(batches.pop(future.key), found):
                 open_sweep.store(index, answer)
-            if stored is not None:
-                stored()
+            if progress is not None:
+                progress(open_sweep.progress())
     finally:
         # A scheduler that is lost knows of no task any more, and does not answer.
         with contextlib.suppress(OSError):
@@ -183,7 +183,7 @@ def _main() -> int:
             open_sweep, folder = opened(wanted.study, client, wanted.out, wanted.replications,
                                         wanted.rerun_changed, wanted.retry_failed)
 
-            def line() -> None:
+            def line(_: dict[str, Any]) -> None:
                 print(f"\r{open_sweep.progress_text()}\033[K", end="", file=sys.stderr, flush=True)
 
             run(open_sweep, client, wanted.batch, line if shown else None)
