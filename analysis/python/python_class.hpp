@@ -19,6 +19,10 @@ class [[gnu::visibility("hidden")]] Held {  // as all of pybind11 is
   Held(const Held&) = delete;
   Held& operator=(const Held&) = delete;
   ~Held() {
+    if (Py_IsInitialized() == 0) {  // at the end of the process, when the registries go
+      object_.release();
+      return;
+    }
     const py::gil_scoped_acquire held;
     object_ = {};
   }
