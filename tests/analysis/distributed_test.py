@@ -29,9 +29,7 @@ values = [0, 1000000]
 """
 
 
-OWN = """import faulthandler
-faulthandler.dump_traceback_later(100, exit=True)
-import sys
+OWN = """import sys
 
 import numpy
 import shoal
