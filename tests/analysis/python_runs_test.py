@@ -275,7 +275,8 @@ class Catalogue(PythonDesk):
             settings = pathlib.Path(work, "mypy.ini")
             settings.write_text("[mypy]\nignore_missing_imports = True\n")
             allowed = pathlib.Path(work, "allowed")  # pybind11's classes have a class of their own
-            allowed.write_text(r"shoal\._shoal\.\w+" "\n" r"shoal\._shoal\.(Command|Solution|Table)\.__init__"
+            allowed.write_text(r"shoal\._shoal\.\w+" "\n" r"shoal\._shoal\.(Command|Solution|Table|SolverProblem|World"
+                               r"|Neighbourhoods?)\.__init__"
                                "\n")
             env = {"MYPYPATH": str(package), "PYTHONPATH": str(package), "PATH": "/usr/bin:/bin",
                    "HOME": work}

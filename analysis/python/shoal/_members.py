@@ -129,11 +129,12 @@ def _keep(family: str, kind: str, cls: type, version: str) -> None:
 
 def _parameters(cls: type) -> list[tuple[str, Any, str, str]]:
     """(name, default, unit, meaning) of what the constructor takes."""
-    if cls.__init__ is object.__init__:
+    constructor: Any = getattr(cls, "__init__")
+    if constructor is object.__init__:
         return []
-    hints = typing.get_type_hints(cls.__init__, include_extras=True)
+    hints = typing.get_type_hints(constructor, include_extras=True)
     found = []
-    for parameter in list(inspect.signature(cls.__init__).parameters.values())[1:]:
+    for parameter in list(inspect.signature(constructor).parameters.values())[1:]:
         if parameter.kind in (parameter.VAR_POSITIONAL, parameter.VAR_KEYWORD, parameter.POSITIONAL_ONLY):
             raise _shoal.InputError(f"the constructor of {cls.__name__} takes {parameter}; its options need names")
         if parameter.default is parameter.empty:
