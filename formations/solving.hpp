@@ -35,7 +35,7 @@ class Solving {
     const double seconds = now_s() - begin;
     for (solvers::SolveObserver* each : observers_) each->answered(answer, seconds);
     if (wants_.problems) {
-      for (solvers::SolveObserver* each : observers_) each->solved(problem, answer);
+      for (solvers::SolveObserver* each : observers_) each->solved({problem, answer});
     }
     return answer;
   }
@@ -50,7 +50,7 @@ class Solving {
     for (solvers::SolveObserver* each : observers_) each->answered(converged, 0.0);
     if (!wants_.problems) return;
     const auto [problem, answer] = state();
-    for (solvers::SolveObserver* each : observers_) each->solved(problem, answer);
+    for (solvers::SolveObserver* each : observers_) each->solved({problem, answer});
   }
 
   static Wants wants_of(Observers observers) {

@@ -1,26 +1,14 @@
 #pragma once
 
-#include <Eigen/Core>
 #include <memory>
 #include <string>
 #include <vector>
 
 #include "shoal/analysis/benchmarking/corpus.hpp"
+#include "shoal/analysis/benchmarking/solver_answer.hpp"
 #include "shoal/analysis/tables/table.hpp"
-#include "shoal/solvers/answer.hpp"
-#include "shoal/solvers/trace.hpp"
 
 namespace shoal::analysis {
-
-/// A solver's answer to a problem of its family, and where it puts things.
-struct SolverAnswer : solvers::Answer {
-  std::string refusal;    ///< why the solver does not take the problem, if it does not
-  Eigen::VectorXd place;  ///< m: answers are as far apart as these
-  double seconds = 0.0;
-  std::vector<solvers::Trace::Point> progress;  ///< if wanted, and if the solver descends
-
-  bool solved() const { return status == solvers::Status::converged; }
-};
 
 struct ComparisonSettings {
   std::vector<std::string> solvers;
@@ -37,7 +25,7 @@ struct Contender {
 };
 
 struct ContenderFamily {
-  std::string name;
+  std::string name;  ///< of the family of solvers
   std::vector<Contender> contenders;
   std::size_t reference = 0;
 };
@@ -59,8 +47,9 @@ class SolverComparison {
   std::vector<const ContenderFamily*> families() const;
 
  private:
-  struct Entries;
-  std::unique_ptr<Entries> entries_;
+  struct Entrants;  // of one family
+  std::vector<Entrants> entrants_;
+  bool progress_;
 };
 
 /// Shares are of the problems posed; evaluations, times and gaps are of those solved. The gap is

@@ -147,9 +147,8 @@ std::vector<HeldProblem> posed(const py::object& behaviour_kind, const py::objec
   struct Gathered final : solvers::SolveObserver {
     std::vector<HeldProblem> problems;
     std::shared_ptr<const void> owner;
-    using SolveObserver::solved;
-    void solved(const Problem& problem, const Solution&) override {
-      problems.push_back({problem, owner});
+    void solved(const solvers::Solved& what) override {
+      if (const auto* problem = what.problem<Problem>()) problems.push_back({*problem, owner});
     }
   };
   Gathered gathered;

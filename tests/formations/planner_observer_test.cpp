@@ -5,6 +5,9 @@
 #include <string_view>
 #include <vector>
 
+#include "shoal/solvers/matching/matching.hpp"
+#include "shoal/solvers/registration/registration.hpp"
+#include "shoal/solvers/solver.hpp"
 #include "tests/formations/engineer.hpp"
 
 namespace shoal::formations {
@@ -24,13 +27,31 @@ struct Watcher final : PlanObserver {
     EXPECT_EQ(answer.status, solvers::Status::converged);
     EXPECT_EQ(seconds, 0.0) << "no time was asked for";
   }
-  void solved(const solvers::Problem& problem, const solvers::Solution& answer) override {
+  void solved(const solvers::Solved& what) override {
+    if (what.problem<solvers::Problem>()) {
+      see(*what.problem<solvers::Problem>(), *what.answer<solvers::Solution>());
+    } else if (what.problem<solvers::RegistrationProblem>()) {
+      see(*what.problem<solvers::RegistrationProblem>(),
+          *what.answer<solvers::RegistrationSolution>());
+    } else if (what.problem<solvers::MatchingProblem>()) {
+      see(*what.problem<solvers::MatchingProblem>(), *what.answer<solvers::MatchingSolution>());
+    } else {
+      ADD_FAILURE() << "a problem of no known family";
+    }
+  }
+  void planned(const Neighbourhood& seen, const Target& target) override {
+    EXPECT_EQ(seen.own_slot, 0);
+    targets.push_back(target);
+  }
+
+ private:
+  void see(const solvers::Problem& problem, const solvers::Solution& answer) {
     ++smooth;
     costs.push_back(answer.cost);
     EXPECT_NEAR(problem.evaluate(answer.x.data()), answer.cost, 1e-9 * std::abs(answer.cost));
   }
-  void solved(const solvers::RegistrationProblem& problem,
-              const solvers::RegistrationSolution& answer) override {
+  void see(const solvers::RegistrationProblem& problem,
+           const solvers::RegistrationSolution& answer) {
     ++registration;
     costs.push_back(answer.cost);
     double sum = 0.0;
@@ -39,15 +60,10 @@ struct Watcher final : PlanObserver {
     }
     EXPECT_NEAR(sum, answer.cost, 1e-9 * (1.0 + sum));
   }
-  void solved(const solvers::MatchingProblem& problem,
-              const solvers::MatchingSolution& answer) override {
+  void see(const solvers::MatchingProblem& problem, const solvers::MatchingSolution& answer) {
     ++matching;
     costs.push_back(answer.cost);
     EXPECT_EQ(problem.points.size(), answer.slot_of_point.size());
-  }
-  void planned(const Neighbourhood& seen, const Target& target) override {
-    EXPECT_EQ(seen.own_slot, 0);
-    targets.push_back(target);
   }
 };
 
@@ -83,8 +99,7 @@ TEST(Planner, TimesWhatItSolvesIfAnObserverWantsThat) {
       ++answers;
       seconds += taken;
     }
-    using SolveObserver::solved;
-    void solved(const solvers::Problem&, const solvers::Solution&) override { ADD_FAILURE(); }
+    void solved(const solvers::Solved&) override { ADD_FAILURE(); }
   };
   for (const char* kind : {"rigid_registration", "pairwise_referencing"}) {
     Engineer engineer(cross_plan, kind);

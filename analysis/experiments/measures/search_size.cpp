@@ -1,4 +1,5 @@
 #include "shoal/analysis/experiments/measure.hpp"
+#include "shoal/solvers/matching/matching.hpp"
 
 namespace shoal::analysis {
 namespace {
@@ -6,14 +7,14 @@ namespace {
 /// Of a matching problem, the size of the search that Rypkema 2015, Alg. 8, makes: every slot is
 /// tried as seed, in every rotation, with a matrix of the distances of all points seen.
 struct SearchSize final : solvers::SolveObserver {
-  using SolveObserver::solved;
   std::optional<double> assignments, distances;
 
-  void solved(const solvers::MatchingProblem& problem,
-              const solvers::MatchingSolution& answer) override {
-    if (answer.candidates == 0) return;
-    const auto points = static_cast<double>(problem.points.size());
-    assignments = static_cast<double>(answer.candidates);
+  void solved(const solvers::Solved& what) override {
+    const auto* problem = what.problem<solvers::MatchingProblem>();
+    const auto* answer = what.answer<solvers::MatchingSolution>();
+    if (!problem || !answer || answer->candidates == 0) return;
+    const auto points = static_cast<double>(problem->points.size());
+    assignments = static_cast<double>(answer->candidates);
     distances = *assignments * points * points;
   }
 };
