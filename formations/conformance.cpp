@@ -5,9 +5,9 @@
 #include <functional>
 #include <numeric>
 #include <optional>
+#include <random>
 
 #include "shoal/core/angles.hpp"
-#include "shoal/core/random.hpp"
 #include "shoal/core/text.hpp"
 
 namespace shoal::formations {
@@ -48,10 +48,10 @@ class Draws {
   }
 
  private:
-  double uniform() { return streams_.uniform(Purpose("conformance"), 0, next_++)[0]; }
+  // Not of RandomStreams: the planner is also built without the library that those need.
+  double uniform() { return 0x1p-53 * static_cast<double>(engine_() >> 11U); }
 
-  RandomStreams streams_{1};
-  std::uint64_t next_ = 0;
+  std::mt19937_64 engine_;
 };
 
 Plan plan_with(const std::vector<Vector2d>& slots) {

@@ -4,7 +4,7 @@ include(CMakePackageConfigHelpers)
 # Headers that programs and plugins build on; what only sources of shoal include stays inside.
 set(internal_headers
     "/(program|python|reporting|benchmarking)/"
-    "/experiments/[a-z]+/" "/statistics/([a-ce-z]|d[a-df-z]|designs)" "/tables/[^t]"
+    "/experiments/([a-z]+/|pipeline\\.hpp)" "/statistics/([a-ce-z]|d[a-df-z]|designs)" "/tables/[^t]"
     "/smooth/(attempt|minimum)\\.hpp$" "/descent\\.hpp$"
     "/matching/(assignment|lattice|paired|points|pose|rigid|rotation|slot)[a-z_]*\\.hpp$"
     "/netcdf_[a-z]*\\.hpp$" "/(mission_time|whole_times)\\.hpp$" "/nps_auv/" "/formula(s/[a-z]+)?\\.hpp$")
