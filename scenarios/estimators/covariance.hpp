@@ -1,6 +1,6 @@
 #pragma once
 
-#include <Eigen/Eigenvalues>
+#include <Eigen/Core>
 #include <cmath>
 #include <limits>
 #include <string>
@@ -39,25 +39,24 @@ bool lower_root(const Eigen::Matrix<double, N, N>& P, Eigen::Matrix<double, N, N
   return true;
 }
 
+/// A covariance of any size that a filter here has: its solvers are compiled once, and allocate
+/// nothing.
+using AnyCovariance = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, 16, 16>;
+
 /// Lifts the eigenvalues of P, as a correlation matrix, to at least 1e-9: the nearest thing to P
 /// that a filter can go on with. Returns false where P is not finite.
+bool lift_eigenvalues(AnyCovariance& P);
+
 template <int N>
 bool lift_eigenvalues(Eigen::Matrix<double, N, N>& P) {
-  using Matrix = Eigen::Matrix<double, N, N>;
-  using Vector = Eigen::Matrix<double, N, 1>;
-  if (!P.allFinite()) return false;
-  // Variances of metres and of radians are put on one scale first.
-  const Vector sd = P.diagonal().unaryExpr(
-      [](double variance) { return variance != 0.0 ? std::sqrt(std::abs(variance)) : 1.0; });
-  const Vector per_sd = sd.cwiseInverse();
-  const Matrix correlation = per_sd.asDiagonal() * P * per_sd.asDiagonal();
-  const Eigen::SelfAdjointEigenSolver<Matrix> solved(correlation);
-  if (solved.info() != Eigen::Success) return false;
-  const Matrix scaled = sd.asDiagonal() * solved.eigenvectors();
-  P = scaled * solved.eigenvalues().cwiseMax(1e-9).asDiagonal() * scaled.transpose();
-  P = 0.5 * (P + P.transpose()).eval();
+  AnyCovariance lifted = P;
+  if (!lift_eigenvalues(lifted)) return false;
+  P = lifted;
   return true;
 }
+
+/// Throws InputError: how P is no covariance, whose entries are finite and symmetric.
+[[noreturn]] void refuse_indefinite(const AnyCovariance& P, const std::string& name);
 
 /// Throws InputError if P is no covariance: not finite, not symmetric, not positive semidefinite.
 template <int N>
@@ -73,12 +72,7 @@ void require_covariance(const Eigen::Matrix<double, N, N>& P, const std::string&
     }
   }
   Eigen::Matrix<double, N, N> root;
-  if (lower_root<N>(P, root)) return;
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix<double, N, N>> solved(P,
-                                                                          Eigen::EigenvaluesOnly);
-  throw InputError(name + " is not positive semidefinite: its smallest eigenvalue is " +
-                   std::to_string(solved.eigenvalues()(0)) +
-                   "; check that no correlation exceeds 1");
+  if (!lower_root<N>(P, root)) refuse_indefinite(P, name);
 }
 
 }  // namespace shoal::scenarios

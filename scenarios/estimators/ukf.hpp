@@ -82,16 +82,34 @@ class Ukf {
 
   /// Time update; `process` is any callable State -> State.
   template <class Process>
-  UkfStatus predict(const Process& process);
+  UkfStatus predict(const Process& process) {
+    remembered_.reset();
+    const UkfStatus drawn = draw();
+    move_points(process);
+    return gather(drawn);
+  }
 
   /// The same where measurement noise has a memory; `measure` is that of the last correct().
   template <class Process, class Measure>
-  UkfStatus predict(const Process& process, const Measure& measure);
+  UkfStatus predict(const Process& process, const Measure& measure) {
+    const UkfStatus drawn = draw();
+    remembered_ = last_used_;
+    if (remembered_.any()) {
+      measure_points(measure);
+      expect_last();
+    }
+    move_points(process);
+    return gather(drawn);
+  }
 
   /// Measurement update; `measure` is any callable State -> Measurement. Values of y that are not
   /// finite are missing: their rows are deleted (C51), and without any the prediction stands.
   template <class Measure>
-  const Update& correct(const Measurement& y, const Measure& measure);
+  const Update& correct(const Measurement& y, const Measure& measure) {
+    const UkfStatus drawn = draw();  // redrawn from P^- (C49)
+    measure_points(measure);
+    return take(y, drawn);
+  }
 
   const State& state() const { return x_; }
   const StateCovariance& covariance() const { return P_; }
@@ -107,10 +125,22 @@ class Ukf {
   using CrossCovariance = Eigen::Matrix<double, N, M>;
   using MeasurementCovariance = Eigen::Matrix<double, M, M>;
 
+  // What a model computes, point by point; the arithmetic around it is compiled once for all
+  // models.
+  template <class Process>
+  void move_points(const Process& process) {
+    for (int k = 0; k < points; ++k) X_.col(k) = State(process(State(X_.col(k))));
+  }
+  template <class Measure>
+  void measure_points(const Measure& measure) {
+    for (int k = 0; k < points; ++k) Y_.col(k) = Measurement(measure(State(X_.col(k))));
+  }
+
   UkfStatus draw();
   UkfStatus keep(const State& x, StateCovariance& P);
-  template <class Process>
-  UkfStatus carry(const Process& process, UkfStatus drawn);
+  void expect_last();
+  UkfStatus gather(UkfStatus drawn);
+  const Update& take(const Measurement& y, UkfStatus drawn);
   void subtract_memory(CrossCovariance& P_xy);
   void gate(CrossCovariance& P_xy, StateCovariance& P);
 

@@ -131,35 +131,22 @@ UkfStatus Ukf<N, M>::keep(const State& x, StateCovariance& P) {
   return status;
 }
 
+// What the points measure before they are moved.
 template <int N, int M>
-template <class Process>
-UkfStatus Ukf<N, M>::predict(const Process& process) {
-  remembered_.reset();
-  return carry(process, draw());
-}
-
-template <int N, int M>
-template <class Process, class Measure>
-UkfStatus Ukf<N, M>::predict(const Process& process, const Measure& measure) {
-  const UkfStatus drawn = draw();
-  remembered_ = last_used_;
-  if (remembered_.none()) return carry(process, drawn);
-  for (int k = 0; k < points; ++k) Y_.col(k) = Measurement(measure(State(X_.col(k))));
+void Ukf<N, M>::expect_last() {
   last_expected_ = detail::centre<M, points>(Y_, settings_.measurement_is_angle, weights_.other);
   last_covariance_ = detail::spread<M, points>(Y_, weights_);
-  const UkfStatus carried = carry(process, drawn);
-  state_with_last_ = detail::spread<N, M, points>(X_, Y_, weights_);
-  return carried;
 }
 
+// The prediction, from the points that were moved.
 template <int N, int M>
-template <class Process>
-UkfStatus Ukf<N, M>::carry(const Process& process, UkfStatus drawn) {
-  for (int k = 0; k < points; ++k) X_.col(k) = State(process(State(X_.col(k))));
+UkfStatus Ukf<N, M>::gather(UkfStatus drawn) {
   const State x = detail::centre<N, points>(X_, settings_.state_is_angle, weights_.other);
   StateCovariance P = detail::spread<N, points>(X_, weights_);
   P += settings_.process_covariance;  // C48
-  return std::max(drawn, keep(x, P));
+  const UkfStatus kept = keep(x, P);
+  if (remembered_.any()) state_with_last_ = detail::spread<N, M, points>(X_, Y_, weights_);
+  return std::max(drawn, kept);
 }
 
 // Turns the innovation of y into that of y - Phi y(k-1), and the covariances with it.
@@ -228,18 +215,17 @@ void Ukf<N, M>::gate(CrossCovariance& P_xy, StateCovariance& P) {
   }
 }
 
+// The estimate, from what the points measure.
 template <int N, int M>
-template <class Measure>
-const typename Ukf<N, M>::Update& Ukf<N, M>::correct(const Measurement& y, const Measure& measure) {
+const typename Ukf<N, M>::Update& Ukf<N, M>::take(const Measurement& y, UkfStatus drawn) {
   update_.missing.reset();
   update_.rejected.reset();
   update_.readmitted.reset();
   update_.gain.setZero();
   update_.nis = 0.0;
   update_.used = 0;
-  update_.status = draw();  // redrawn from P^- (C49)
+  update_.status = drawn;
 
-  for (int k = 0; k < points; ++k) Y_.col(k) = Measurement(measure(State(X_.col(k))));
   const Measurement expected =
       detail::centre<M, points>(Y_, settings_.measurement_is_angle, weights_.other);
   // The points lie at +-gamma S about the prior, the central one upon it.
