@@ -9,13 +9,23 @@ add_library(shoal_warnings INTERFACE)
 target_compile_options(shoal_warnings INTERFACE -Wall -Wextra -Wpedantic -Wshadow -Wconversion
                        -Wnon-virtual-dtor -Wno-missing-field-initializers
                        $<$<BOOL:${SHOAL_WERROR}>:-Werror>
-                       # At -O3 these three of GCC 12 report code of Eigen and of libstdc++ itself
+                       # At -O3 these of GCC 12 report code of Eigen and of libstdc++ itself
                        # (GCC bug 105651 and its like); the sanitizers look for the real thing.
                        $<$<CXX_COMPILER_ID:GNU>:-Wno-restrict -Wno-array-bounds
-                       -Wno-maybe-uninitialized
+                       -Wno-maybe-uninitialized -Wno-stringop-overflow -Wno-stringop-overread
                        # A source of a unity build counts as a header, in which no class may have
                        # members of an anonymous namespace's types.
                        $<$<BOOL:${CMAKE_UNITY_BUILD}>:-Wno-subobject-linkage>>)
+
+# shoal_precompile(TARGET HEADER...): headers that most sources of the target include, read once. In a
+# unity build they are, without this.
+function(shoal_precompile target)
+  if(NOT CMAKE_UNITY_BUILD)
+    target_precompile_headers(${target} PRIVATE ${ARGN})
+    # What ccache needs to know such a source again.
+    target_compile_options(${target} PRIVATE $<$<CXX_COMPILER_ID:GNU>:-fpch-preprocess>)
+  endif()
+endfunction()
 
 # shoal_library(LAYER PUBLIC ... PRIVATE ...): every .cpp of the layer, as a shared library.
 #
@@ -41,4 +51,5 @@ function(shoal_library layer)
   target_compile_options(shoal_${layer} PRIVATE -fno-semantic-interposition -fno-math-errno
                          -fno-trapping-math)
   target_link_libraries(shoal_${layer} ${ARGN} PRIVATE $<BUILD_INTERFACE:shoal_warnings>)
+  shoal_precompile(shoal_${layer} <shoal/core/registry.hpp>)
 endfunction()
