@@ -101,10 +101,12 @@ TEST(AttractionRepulsion, MinimisesTheSumAndThePullOfTheCentroidOfAllNeighbours)
 
 // The author's program: the mean of the potentials, and the own position in the centroid.
 TEST(AttractionRepulsion, MinimisesTheMeanWithTheOwnPositionInTheCentroidInTheAuthorsVariant) {
-  const Vector2d centroid = (figure37[0].position + figure37[1].position) / 3.0;
+  // The third is in range, and in the centroid, but not selected.
+  const Neighbours seen = neighbours_at({{-280, -81}, {-25, -193}, {600, 150}});
+  const Vector2d centroid = (seen[0].position + seen[1].position + seen[2].position) / 4.0;
   const Target target =
       behaviour(attraction_kind, {{"combination", "mean"}, {"cohesion.centroid.counts_own", true}})
-          ->step({figure37, 0}, unused_plan);
+          ->step({seen, 0}, unused_plan);
   const auto expected = [&](const Vector2d& p) { return cost(p, figure37, centroid, 0.5); };
   EXPECT_NEAR(target.cost, expected(target.position), 1e-9);
   for (int i = 0; i < 12; ++i) {

@@ -128,7 +128,9 @@ TEST(Drift, AveragesTheLastTargets) {  // Alg. 2
   EXPECT_DOUBLE_EQ(pilot.to(30, 0).heading_rad, 0.0);                     // mean (30, 0)
   EXPECT_DOUBLE_EQ(pilot.to(0, 30).heading_rad, std::numbers::pi / 4);    // (15, 15)
   EXPECT_DOUBLE_EQ(pilot.to(-30, 30).heading_rad, std::numbers::pi / 2);  // (0, 20)
-  EXPECT_DOUBLE_EQ(pilot.to(-30, -60).heading_rad, std::numbers::pi);  // (-20, 0): the first left
+  EXPECT_DOUBLE_EQ(pilot.to(-30, -60).heading_rad, std::numbers::pi);     // (-20, 0)
+  // (-10, 10): the first two have left.
+  EXPECT_DOUBLE_EQ(pilot.to(30, 60).heading_rad, 3.0 * std::numbers::pi / 4);
 }
 
 TEST(Drift, JudgesDistanceByTheAveragedTarget) {
