@@ -62,8 +62,10 @@ Plan plan_with(const std::vector<Vector2d>& slots) {
 
 Plan lattice_of(int columns, int rows, double separation_m) {
   std::vector<Vector2d> slots;
-  for (int i = 0; i < columns * rows; ++i) {
-    slots.emplace_back(separation_m * (i % columns), separation_m * (i / columns));
+  for (int row = 0; row < rows; ++row) {
+    for (int column = 0; column < columns; ++column) {
+      slots.emplace_back(separation_m * column, separation_m * row);
+    }
   }
   return plan_with(slots);
 }

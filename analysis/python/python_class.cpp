@@ -81,8 +81,7 @@ PythonClass::PythonClass(std::string name, std::string version, const py::object
   for (const py::handle each : parameters) {
     const auto [parameter_name, fallback, unit, meaning] =
         each.cast<std::tuple<std::string, py::object, std::string, std::string>>();
-    const auto same = [&](const Option& option) { return option.name == parameter_name; };
-    if (std::ranges::any_of(all, same)) {
+    if (std::ranges::find(all, parameter_name, &Option::name) != all.end()) {
       throw InputError("the parameter " + parameter_name + " of " + name_ +
                        " has the name of an option that all have; rename it");
     }

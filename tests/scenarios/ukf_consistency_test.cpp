@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <Eigen/LU>
 #include <boost/math/distributions/chi_squared.hpp>
 
 #include "shoal/core/random.hpp"
