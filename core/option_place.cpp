@@ -11,7 +11,7 @@ OptionPlace locate(const Schema& root, const std::string& key, const Origin& ori
   const auto parts = split(key, '.');
   for (std::size_t i = 0; i < parts.size(); ++i) {
     const std::string part(parts[i]);
-    if (choice && part == "kind" && i + 1 == parts.size()) {
+    if (choice && !choice->of_all && part == "kind" && i + 1 == parts.size()) {
       place.is_kind = true;
       break;
     }

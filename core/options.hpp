@@ -16,6 +16,7 @@
 namespace shoal {
 
 class RegistryBase;
+struct MemberOptions;
 struct Schema;
 
 /// The numbers an option may take.
@@ -61,6 +62,7 @@ struct Option {
   const Schema* table = nullptr;         ///< set for a nested struct
   const Option* entry = nullptr;         ///< set for a table of named numbers: what each of them is
   const RegistryBase* choice = nullptr;  ///< set for a member of a family
+  bool of_all = false;  ///< of that family none is chosen: each member has a table of its name
   std::function<void(void* object, const Setting&, const std::string& key)> read;
   std::function<Setting(const void* object)> write;
   std::function<bool(const void* object)> given;  ///< of one that may be left out; or empty
@@ -137,6 +139,10 @@ class Options {
   /// A member of a family: `name.kind = "x"`, its options in the table `name.x`.
   template <class Family>
   void choice(std::string name, Choice<Family> T::*member, std::string meaning);
+
+  /// Options of members of a family that are all in use: `name.member.option = value`.
+  void members(std::string name, MemberOptions T::*member, const RegistryBase& family,
+               std::string meaning);
 
   std::vector<Option> take() { return std::move(options_); }
 

@@ -277,7 +277,9 @@ const Schema& schema_of() {
     made.defaults = write_options(made, &fresh);
     for (const Option& option : made.options) {
       if (option.given && !made.defaults.find(option.name)) {
-        made.defaults.table().emplace_back(option.name, option.table->defaults);
+        const Setting none;
+        made.defaults.table().emplace_back(option.name,
+                                           option.table ? option.table->defaults : none);
       }
     }
     return made;

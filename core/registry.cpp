@@ -29,12 +29,13 @@ std::string suggested_name(const std::string& wrong, const std::vector<std::stri
 }
 
 /// Puts the tables of members, checked, into `tables` under their whole names. `prefix` is the
-/// part of those names that `value` stands for: `nlopt.` or nothing.
+/// part of those names that `value` stands for: `nlopt.` or nothing. `kind` beside them chooses
+/// one, if one is chosen.
 void gather(const RegistryBase& registry, const Setting& value, const std::string& key,
-            const std::string& prefix, Setting& tables) {
+            const std::string& prefix, bool chosen, Setting& tables) {
   const std::string path = key + (prefix.empty() ? "" : "." + prefix.substr(0, prefix.size() - 1));
   for (const auto& [part, entry] : value.table()) {
-    if (part == "kind" && prefix.empty()) continue;
+    if (part == "kind" && prefix.empty() && chosen) continue;
     const std::string name = prefix + part;
     if (const MemberInfo* member = registry.find(name)) {
       // `"nlopt.lbfgs"` beside `nlopt.lbfgs` would be two tables for one member.
@@ -46,14 +47,14 @@ void gather(const RegistryBase& registry, const Setting& value, const std::strin
       tables.at_or_new(name) = entry;
     } else if (!registry.has_below(name)) {
       std::vector<std::string> known = names_below(registry, prefix);
-      if (prefix.empty()) known.emplace_back("kind");
+      if (prefix.empty() && chosen) known.emplace_back("kind");
       throw InputError(entry.origin,
                        path + " has no option \"" + part + '"' + suggested_name(part, known));
     } else if (!entry.is_table()) {
       throw InputError(entry.origin, path + "." + part + " is " + std::string(entry.type_name()) +
                                          "; it takes a table of options");
     } else {
-      gather(registry, entry, key, name + ".", tables);
+      gather(registry, entry, key, name + ".", chosen, tables);
     }
   }
 }
@@ -180,6 +181,12 @@ std::vector<const RegistryBase*> families() {
   return sorted;
 }
 
+const RegistryBase* family_named(std::string_view name) {
+  const std::vector<const RegistryBase*> all = families();
+  const auto found = std::ranges::find(all, name, &RegistryBase::family);
+  return found == all.end() ? nullptr : *found;
+}
+
 std::string key_of(const RegistryBase& family, const Schema& schema) {
   std::vector<const RegistryBase*> walked;
   return key_of(family, schema, "", walked);
@@ -203,7 +210,7 @@ void ChoiceSetting::read(const RegistryBase& registry, const Setting& value,
     kind = *name;
     origin = given->origin;
   }
-  gather(registry, value, key, "", tables);
+  gather(registry, value, key, "", true, tables);
   // A kind without a table has all its defaults; its complaints point at the choice.
   tables.origin = origin;
   tables.at_or_new(kind);
@@ -224,6 +231,32 @@ Setting ChoiceSetting::write(const RegistryBase& registry) const {
 const Setting& ChoiceSetting::options() const {
   static const Setting none;
   const Setting* given = tables.find(kind);
+  return given ? *given : none;
+}
+
+void MemberOptions::read(const RegistryBase& registry, const Setting& value,
+                         const std::string& key) {
+  if (!value.is_table()) {
+    throw InputError(value.origin, key + " is " + std::string(value.type_name()) +
+                                       "; it takes a table with a table for each member");
+  }
+  gather(registry, value, key, "", false, tables);
+}
+
+Setting MemberOptions::write(const RegistryBase& registry) const {
+  Setting table;
+  for (const MemberInfo& member : registry.members()) {
+    const Setting* given = tables.find(member.name);
+    if (!given) continue;
+    const Setting complete = member.complete(*given, registry.family() + "." + member.name);
+    if (!complete.table().empty()) assign(table, member.name, complete);
+  }
+  return table;
+}
+
+const Setting& MemberOptions::of(std::string_view name) const {
+  static const Setting none;
+  const Setting* given = tables.find(name);
   return given ? *given : none;
 }
 

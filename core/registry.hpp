@@ -92,6 +92,8 @@ class RegistryWatch {
 
 /// All families that something is registered in, sorted by name.
 std::vector<const RegistryBase*> families();
+/// One of them, or nullptr.
+const RegistryBase* family_named(std::string_view name);
 
 /// The dotted key at which a struct, or what can be chosen in it, first chooses from the family
 /// (`behaviour.attraction_repulsion.solver`); "" if nothing does.
@@ -184,6 +186,17 @@ struct ChoiceSetting {
   const Setting& options() const;  ///< the table of the chosen kind
 };
 
+/// What was given for members of a family that are all in use.
+struct MemberOptions {
+  Setting tables;  ///< name, dotted or not -> table of its options
+
+  void read(const RegistryBase& registry, const Setting& value, const std::string& key);
+  /// Those that were given, each completed by its defaults.
+  Setting write(const RegistryBase& registry) const;
+  /// Of the member of that name; empty if none were given.
+  const Setting& of(std::string_view name) const;
+};
+
 /// A struct with declared options.
 template <class T>
 concept DeclaredOptions = requires(Options<T>& options) {
@@ -237,6 +250,25 @@ void Options<T>::choice(std::string name, Choice<Family> T::*member, std::string
   };
   option.write = [member](const void* object) {
     return (static_cast<const T*>(object)->*member).setting().write(Registry<Family>::instance());
+  };
+  options_.push_back(std::move(option));
+}
+
+template <class T>
+void Options<T>::members(std::string name, MemberOptions T::*member, const RegistryBase& family,
+                         std::string meaning) {
+  Option option{
+      .name = std::move(name), .meaning = std::move(meaning), .type = "a table of members"};
+  option.choice = &family;
+  option.of_all = true;
+  option.read = [member, &family](void* object, const Setting& value, const std::string& key) {
+    (static_cast<T*>(object)->*member).read(family, value, key);
+  };
+  option.write = [member, &family](const void* object) {
+    return (static_cast<const T*>(object)->*member).write(family);
+  };
+  option.given = [member](const void* object) {
+    return !(static_cast<const T*>(object)->*member).tables.table().empty();
   };
   options_.push_back(std::move(option));
 }

@@ -98,6 +98,10 @@ void Scenario::declare(Options<Scenario>& o) {
   o.table("energy", &S::energy, "what the consumers draw");
   o.choice("faults", &S::faults, "what goes wrong on purpose");
   o.table("quality", &S::quality, "how the formation quality is measured");
+  // Measures are known above this layer only; without it there is nothing to give options to.
+  if (const RegistryBase* measures = family_named("measure")) {
+    o.members("measure", &S::measures, *measures, "options of measures");
+  }
 }
 
 std::int64_t ticks_of(double period_s, double tick_s, const std::string& key) {

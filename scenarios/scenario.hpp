@@ -95,6 +95,7 @@ struct Scenario {
   Energy energy;
   Choice<Fault> faults{"node_loss"};
   QualityOptions quality;
+  MemberOptions measures;
 
   static void declare(Options<Scenario>& o);
 };

@@ -10,11 +10,12 @@
 namespace shoal::analysis {
 namespace {
 
-std::vector<std::unique_ptr<Measure>> all_measures() {
+std::vector<std::unique_ptr<Measure>> all_measures(const MemberOptions& options) {
   std::vector<std::unique_ptr<Measure>> measures;
   const auto& registry = Registry<Measure>::instance();
   for (const MemberInfo& member : registry.members()) {
-    measures.push_back(registry.make(member.name, Setting{}, member.name));
+    measures.push_back(
+        registry.make(member.name, options.of(member.name), "measure." + member.name));
   }
   return measures;
 }
@@ -55,7 +56,7 @@ Trial run_trial(const scenarios::Scenario& scenario, const TrialSettings& settin
   trial.world = std::make_unique<scenarios::World>(scenario, settings.threads);
 
   require_holdable(*trial.world, settings.record);
-  std::vector<std::unique_ptr<Measure>> measures = all_measures();
+  std::vector<std::unique_ptr<Measure>> measures = all_measures(scenario.measures);
   std::vector<scenarios::Observer*> observers = settings.observers;
   for (const auto& measure : measures) {
     measure->begin(*trial.world);

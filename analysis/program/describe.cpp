@@ -123,7 +123,11 @@ bool describe_family(const std::string& name, std::vector<std::string>& known) {
     if (first == name || (key.empty() && name == first + ".kind")) {
       list(first);
       if (!key.empty()) {
-        fmt::print("chosen by {}.kind\n", key);
+        if (locate(scenario, key).option->of_all) {
+          print_key(scenario, key);
+        } else {
+          fmt::print("chosen by {}.kind\n", key);
+        }
       } else {
         describe_naming_options(*family);
       }
@@ -190,7 +194,9 @@ void describe(const std::string& name) {
   const Schema& root = schema_of<scenarios::Scenario>();
   const std::string first = name.substr(0, name.find('.'));
   std::vector<std::string> known = root.names();
-  bool found = root.find(first) != nullptr;
+  const Option* option = root.find(first);
+  // A family of which all members are in use is described as a family, below.
+  bool found = option && !(option->of_all && first == name);
   if (found) print_key(root, name);
   found |= describe_file(name, scenarios::library_sets(), scenarios::set_file, known);
   found |= describe_members(name, known);

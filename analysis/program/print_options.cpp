@@ -42,6 +42,15 @@ void print_choice(const Option& option, const Setting* fallback, const std::stri
   }
 }
 
+/// Of members that are all in use, those that have options.
+void print_members(const Option& option, const std::string& key) {
+  fmt::print("{}.NAME.OPTION: {}, of\n", key, option.meaning);
+  for (const MemberInfo& member : option.choice->members()) {
+    if (member.schema().options.empty()) continue;
+    fmt::print("      {:<26} {}\n", member.name, member.summary);
+  }
+}
+
 /// With the defaults of where it stands: those of its struct may be others.
 void print_entries(const Schema& schema, const Setting& defaults, const std::string& path);
 
@@ -49,6 +58,8 @@ void print_entry(const Option& option, const Setting& fallback, const std::strin
   if (option.table) {
     fmt::print("{}: {}{}\n", key, option.meaning, option.given ? "; may be left out" : "");
     print_entries(*option.table, fallback, key);
+  } else if (option.of_all) {
+    print_members(option, key);
   } else if (option.choice) {
     print_choice(option, &fallback, key);
   } else {

@@ -60,6 +60,14 @@ class Help(Desk):
         choice = self.say("describe", "behaviour.attraction_repulsion.solver.kind")
         self.assertIn("  nlopt.bobyqa ", choice)
 
+    def test_describe_measures_and_their_options(self):
+        text = self.say("describe", "measure")
+        self.assertTrue(text.startswith(self.say("list", "measure")), text)
+        self.assertRegex(text, r"measure.NAME.OPTION: options of measures, of\n +lattice +is the lattice whole")
+        self.assertIn("measure.lattice.together_spacings\n", self.say("describe", "lattice"))
+        text = self.say("describe", "measure.lattice.together_spacings")
+        self.assertIn("takes a number above 0; default 1.5\n", text)
+
     def test_describe_a_table(self):
         text = self.say("describe", "ping")
         for part in ["ping.period_s\n", "above 0 s; default 30.0", "ping.schedule.kind\n"]:
@@ -134,7 +142,7 @@ class Help(Desk):
                               ["metric is now measure; write that"])
 
     def test_describe_lists_a_family_that_no_scenario_chooses(self):
-        for family in ("design", "claim_test", "evaluation", "measure"):
+        for family in ("design", "claim_test", "evaluation"):
             listed = self.say("list", family)
             for name in (family, family + ".kind", family + "s"):
                 self.assertEqual(self.say("describe", name), listed)

@@ -461,6 +461,29 @@ class Measures(PythonDesk):
         self.assertEqual(shoal.measures().loc["spread_by_hand_m", "unit"], "m")
         self.assertIn("spread-", shoal.program())
 
+    def test_what_its_constructor_takes_are_options_under_its_name(self):
+        @shoal.measure
+        class Scaled:
+            values = {"scaled_time_s": ("s", "the duration, scaled")}
+
+            def __init__(self, scale: Annotated[float, "", "factor"] = 1.0):
+                self.scale = scale
+
+            def finish(self, world):
+                return {"scaled_time_s": self.scale * world.time_s}
+
+        key = "measure.scaled.scale"
+        self.assertEqual(shoal.options("measure", "scaled").set_index("key").loc[key, "default"], 1.0)
+        run = shoal.run("construction_square", {"trial.duration_s": 10, key: 3})
+        self.assertEqual(run.measures["scaled_time_s"], 30.0)
+        study = {"scenario": "construction_square", "set": {"trial.duration_s": 10},
+                 "factor": [{"key": key, "values": [1, 2]}],
+                 "table": [{"name": "t", "rows": ["scale"], "measures": ["scaled_time_s"]}]}
+        swept = shoal.sweep(study, self.desk / "out", jobs=2)
+        self.assertEqual(swept.set_index("scale").scaled_time_s.to_dict(), {1: 10.0, 2: 20.0})
+        with self.assertRaisesRegex(shoal.InputError, 'measure.scaled has no option "size"'):
+            shoal.scenario("construction_square", {"measure.scaled.size": 1})
+
     def test_its_world_ends_with_the_call(self):
         kept = []
 

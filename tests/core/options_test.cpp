@@ -338,6 +338,53 @@ TEST(Choice, AKindWithoutATableKnowsWhereItWasChosen) {
   EXPECT_EQ(dynamic_cast<const Square&>(*made).origin.line, 4);
 }
 
+// Members that are all in use -------------------------------------------------------------------
+
+struct AllShapes {
+  MemberOptions shapes;
+  static void declare(Options<AllShapes>& o) {
+    o.members("shape", &AllShapes::shapes, Registry<Shape>::instance(), "options of shapes");
+  }
+};
+
+AllShapes all_shapes(const Setting& table) {
+  AllShapes object;
+  read(object, table, "");
+  return object;
+}
+
+TEST(Members, EachTakeTheTableOfTheirName) {
+  const AllShapes made = all_shapes(with("shape.disc.diameter_m", value(4.0)));
+  const auto& registry = Registry<Shape>::instance();
+  EXPECT_DOUBLE_EQ(registry.make("disc", made.shapes.of("disc"), "shape.disc")->area(),
+                   4.0 * std::numbers::pi);
+  EXPECT_EQ(registry.make("square", made.shapes.of("square"), "shape.square")->area(), 1.0);
+}
+
+TEST(Members, AreWrittenCompleteIfSomethingWasGiven) {
+  const Schema& schema = schema_of<AllShapes>();
+  const AllShapes none;
+  EXPECT_TRUE(write_options(schema, &none).table().empty());
+  const AllShapes made = all_shapes(with("shape.square", Setting{}));
+  const Setting written = write_options(schema, &made);
+  EXPECT_EQ(written.find_path("shape.disc"), nullptr);
+  EXPECT_EQ(std::get<double>(written.find_path("shape.square.side_m")->value), 1.0);
+}
+
+TEST(Members, AreNotChosen) {
+  const auto said = [](const std::string& path, const Setting& x) {
+    return complaint_of([&] { all_shapes(with(path, x)); });
+  };
+  EXPECT_EQ(said("shape.kind", text("disc")),
+            "dir/s.toml:4: shape has no option \"kind\"; known are disc and square");
+  EXPECT_EQ(said("shape.disk.diameter_m", value(1.0)),
+            "dir/s.toml:4: shape has no option \"disk\"; did you mean \"disc\"?");
+  EXPECT_EQ(said("shape.disc.diameter_m", integer(101)),
+            "dir/s.toml:4: shape.disc.diameter_m is 101; it takes from 0 to 100 m");
+  EXPECT_EQ(said("shape", text("disc")),
+            "dir/s.toml:4: shape is a string; it takes a table with a table for each member");
+}
+
 TEST(Registry, KeepsItsMembersSortedAndEveryFamilyKnown) {
   const auto& shapes = Registry<Shape>::instance();
   EXPECT_EQ(shapes.names(), (std::vector<std::string>{"disc", "square"}));

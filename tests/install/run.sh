@@ -41,8 +41,9 @@ prefix/bin/shoal --plugin "$plugin" list | grep -c '^  my_' | grep -qx 5
 prefix/bin/shoal --plugin "$plugin" describe my_jet | grep -F current.my_jet.width_m
 prefix/bin/shoal --plugin "$plugin" run construction_square --out mine --no-report \
   --set trial.duration_s=60 --set current.kind=my_jet --set behaviour.kind=my_gathering \
-  --set guidance.kind=my_pursuit
-grep -F my_easting_m mine/summary.json
+  --set guidance.kind=my_pursuit --set measure.my_easting.from_m=-1e6
+grep -E '"my_easting_m": (9|10)[0-9]{5}' mine/summary.json
+grep -F from_m mine/scenario.toml
 grep -F libmine.so- mine/summary.json
 cat >mine.toml <<'STUDY'
 scenario = "construction_square"
@@ -84,7 +85,7 @@ import shoal
 
 wanted = json.load(open("out/summary.json"))["measures"]
 assert shoal.run("construction_square", {"trial.duration_s": 60}).measures == wanted
-print("the installed package runs", shoal.program)
+print("the installed package runs", shoal.program())
 PYTHON
   PYTHONPATH=$package PLUGIN=$plugin /usr/bin/python3 -B - <<'PYTHON'
 import json
@@ -94,9 +95,10 @@ import shoal
 shoal.load_plugin(os.environ["PLUGIN"])
 run = shoal.run("construction_square", {"trial.duration_s": 60, "current.kind": "my_jet",
                                         "behaviour.kind": "my_gathering",
-                                        "guidance.kind": "my_pursuit"})
+                                        "guidance.kind": "my_pursuit",
+                                        "measure.my_easting.from_m": -1e6})
 assert run.measures == json.load(open("mine/summary.json"))["measures"]
 assert "my_jet" in shoal.catalogue()["current"]
-assert "libmine.so-" in shoal.program
+assert "libmine.so-" in shoal.program()
 PYTHON
 done

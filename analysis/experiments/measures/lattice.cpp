@@ -7,26 +7,33 @@
 namespace shoal::analysis {
 namespace {
 
-// Vehicles farther apart than this look apart in the figures of Rypkema 2015, chapter 5: between
-// the diagonal of a square of the lattice and the second neighbours of a hexagon.
-constexpr double together_spacings = 1.5;
-constexpr double on_point_spacings = 0.2;
-
 /// What has become of the lattice at the end of the mission: is it whole (Rypkema 2015, sec. 5.1.1,
 /// 5.2.1), and are vehicles on its points (sec. 5.4)? Slots are those of the padded plan as the
 /// formation quality lays it onto the vehicles. Only where the quality is measured.
 class Lattice final : public Measure {
  public:
-  static void declare(Options<Lattice>&) {}
+  // Vehicles farther apart than this look apart in the figures of Rypkema 2015, chapter 5: between
+  // the diagonal of a square of the lattice and the second neighbours of a hexagon.
+  double together_spacings = 1.5;
+  double on_point_spacings = 0.2;
+
+  static void declare(Options<Lattice>& o) {
+    o.number("together_spacings", &Lattice::together_spacings, "", above(0),
+             "vehicles this many separations apart, or less, are of one group");
+    o.number("on_point_spacings", &Lattice::on_point_spacings, "", above(0),
+             "a vehicle this many separations from its slot, or less, is on it");
+  }
 
   std::vector<Quantity> values() const override {
-    return {{"separate_groups", "", "groups farther than 1.5 separations apart, at the end"},
-            {"lattice_holes", "", "groups of empty slots closed in by vehicles, at the end"},
-            {"lattice_defects", "", "holes, and groups beyond the first, at the end"},
-            {"on_lattice_share", "",
-             "share of vehicles within a fifth of the separation of their slots, at the end"},
-            {"outside_outline_vehicles", "",
-             "vehicles on slots outside the outline of the plan, at the end"}};
+    return {
+        {"separate_groups", "",
+         "groups farther apart than measure.lattice.together_spacings, at the end"},
+        {"lattice_holes", "", "groups of empty slots closed in by vehicles, at the end"},
+        {"lattice_defects", "", "holes, and groups beyond the first, at the end"},
+        {"on_lattice_share", "",
+         "share of vehicles within measure.lattice.on_point_spacings of their slots, at the end"},
+        {"outside_outline_vehicles", "",
+         "vehicles on slots outside the outline of the plan, at the end"}};
   }
 
   void finish(const scenarios::World& world, Results& results) const override {

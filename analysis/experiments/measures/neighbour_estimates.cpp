@@ -7,9 +7,6 @@
 namespace shoal::analysis {
 namespace {
 
-constexpr double rest_m_s = 0.05;
-constexpr double moving_m_s = 0.3;
-
 /// How well vehicles know where their neighbours are: the filter of pings removes noise, and lags
 /// while vehicles move (Rypkema 2015, sec. 3.3.1, fig. 3.5).
 ///
@@ -18,14 +15,25 @@ constexpr double moving_m_s = 0.3;
 /// the filter remembers; a single measurement is as noisy as the range and bearing of a ping.
 class NeighbourEstimates final : public Measure {
  public:
-  static void declare(Options<NeighbourEstimates>&) {}
+  double rest_m_s = 0.05;
+  double moving_m_s = 0.3;
+
+  static void declare(Options<NeighbourEstimates>& o) {
+    using N = NeighbourEstimates;
+    o.number("rest_m_s", &N::rest_m_s, "m/s", at_least(0),
+             "a vehicle at this speed through the water, or below, makes no way");
+    o.number("moving_m_s", &N::moving_m_s, "m/s", above(0),
+             "a neighbour at this speed relative to the own, or above, moves");
+  }
 
   std::vector<Quantity> values() const override {
     return {{"neighbour_error_m", "m", "error of the places of neighbours when heard, rms"},
             {"neighbour_noise_ratio", "",
              "the same of vehicles at rest / that of single measurements, rms"},
             {"neighbour_lag_m", "m",
-             "how far places are behind, of neighbours that move at 0.3 m/s or more, mean"}};
+             "how far places are behind, of neighbours that move at "
+             "measure.neighbour_estimates.moving_m_s "
+             "or more, mean"}};
   }
 
   void begin(const scenarios::World& world) override {

@@ -6,27 +6,31 @@
 namespace shoal::analysis {
 namespace {
 
-// A vehicle is at its end once it is that near: the drifting radius and half of it.
-constexpr double arrived_m = 30.0;
-
 /// The ways of the vehicles over ground: how long, how straight, do they cross (Rypkema 2015,
 /// sec. 5.1.1)? Tracks are in steps of 10 m and more; the approach is the part of a track up to
-/// where the vehicle first is within 30 m of its end. Vehicles that are lost have no end.
+/// where the vehicle first is within arrived_m of its end. Vehicles that are lost have no end.
 class Paths final : public Measure {
  public:
-  static void declare(Options<Paths>&) {}
+  double arrived_m = 30.0;  // the drifting radius and half of it
+
+  static void declare(Options<Paths>& o) {
+    o.number("arrived_m", &Paths::arrived_m, "m", at_least(0),
+             "a vehicle that is this near to the end of its track, or nearer, has arrived");
+  }
 
   std::vector<Quantity> values() const override {
     return {{"path_length_m", "m", "length of the track over ground, mean of vehicles"},
             {"path_detour", "",
              "length of all tracks / distance of all vehicles from where they started"},
             {"approach_straightness", "",
-             "distance / length of the track up to 30 m from its end, mean of vehicles"},
+             "distance / length of the track up to measure.paths.arrived_m from its end, mean of "
+             "vehicles"},
             {"arc_away_m", "m",
              "how much farther from its end a vehicle gets than at its start, mean of vehicles"},
             {"arc_share", "", "share of vehicles that get farther away by 10 m and more"},
             {"crossing_share", "",
-             "share of pairs of vehicles whose tracks up to 30 m from their ends cross"}};
+             "share of pairs of vehicles whose tracks up to measure.paths.arrived_m from their "
+             "ends cross"}};
   }
 
   void begin(const scenarios::World& world) override { every_s_ = log_interval_s(world); }

@@ -42,9 +42,6 @@ std::vector<std::size_t> SlotKeeping::elsewhere(std::size_t instant, double spac
 
 namespace {
 
-// Between two slots, in spacings from the one that the vehicle comes to.
-constexpr double left_spacings = 0.8, arrived_spacings = 0.2;
-
 /// The formation quality at full sampling, 5 s, and vehicles that change their slots (Rypkema 2015,
 /// sec. 5.1.2, 5.3.2, 5.5).
 ///
@@ -53,7 +50,20 @@ constexpr double left_spacings = 0.8, arrived_spacings = 0.2;
 /// quality is measured.
 class SlotKeepingMeasure final : public Measure {
  public:
-  static void declare(Options<SlotKeepingMeasure>&) {}
+  double left_spacings = 0.8, arrived_spacings = 0.2;
+
+  static void declare(Options<SlotKeepingMeasure>& o) {
+    using S = SlotKeepingMeasure;
+    o.number("left_spacings", &S::left_spacings, "", above(0),
+             "a vehicle is between two slots once it is less than this many separations from the "
+             "one that it comes to");
+    o.number("arrived_spacings", &S::arrived_spacings, "", at_least(0),
+             "and until it is this near");
+  }
+  std::optional<std::string> complaint() const {
+    if (arrived_spacings < left_spacings) return std::nullopt;
+    return "arrived_spacings must be below left_spacings";
+  }
 
   std::vector<Quantity> values() const override {
     return {

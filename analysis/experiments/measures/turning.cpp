@@ -7,21 +7,24 @@
 namespace shoal::analysis {
 namespace {
 
-constexpr double still_water_m_s = 0.02;  // a fifth of the weakest current of his scenarios
-
 /// How jagged tracks are (Rypkema 2015, sec. 5.2.1, 5.3.1): by how much they turn from one step of
 /// 10 m and more to the next, over all steps of all vehicles, and apart for water that moves the
 /// vehicles and water that hardly does. A straight track turns by 0, one that goes to and fro by
 /// 180 degrees.
 class Turning final : public Measure {
  public:
-  static void declare(Options<Turning>&) {}
+  double still_water_m_s = 0.02;  // a fifth of the weakest current of his scenarios
+
+  static void declare(Options<Turning>& o) {
+    o.number("still_water_m_s", &Turning::still_water_m_s, "m/s", at_least(0),
+             "water that moves more slowly is taken to be still");
+  }
 
   std::vector<Quantity> values() const override {
-    return {
-        {"turning_deg", "deg", "turn of the tracks between steps of 10 m, mean"},
-        {"turning_in_current_deg", "deg", "the same, where the water moves by 0.02 m/s or more"},
-        {"turning_in_still_water_deg", "deg", "the same, where it moves less"}};
+    return {{"turning_deg", "deg", "turn of the tracks between steps of 10 m, mean"},
+            {"turning_in_current_deg", "deg",
+             "the same, where the water moves by measure.turning.still_water_m_s or more"},
+            {"turning_in_still_water_deg", "deg", "the same, where it moves less"}};
   }
 
   void begin(const scenarios::World& world) override { every_s_ = log_interval_s(world); }

@@ -89,8 +89,10 @@ Axis::Axis(const Factor& factor)
     }
     if (place.member || (place.option->choice && !place.is_kind) || place.option->table ||
         place.option->entry) {
-      throw InputError(factor.origin, key_ + " is a table of options; name one of them" +
-                                          (place.option->choice ? ", or " + key_ + ".kind" : ""));
+      throw InputError(
+          factor.origin,
+          key_ + " is a table of options; name one of them" +
+              (place.option->choice && !place.option->of_all ? ", or " + key_ + ".kind" : ""));
     }
     if (!place.is_kind) unit_ = place.option->unit;
     meaning_ = place.option->meaning;

@@ -95,7 +95,8 @@ def measure(cls: type | None = None, *, version: str | None = None) -> Any:
     It has `values` = {"spread_m": ("m", "mean distance from the centre")}, and `series` likewise, against time.
     `finish(world)` is given a World when the trial has ended and returns a dict: numbers, or None where there
     is none, and for series (times, numbers). `begin(world)` and `observe(world)`, where it has them, are
-    called before it begins and every `every_s` seconds (by default some 5). Raises InputError.
+    called before it begins and every `every_s` seconds (by default some 5). What its constructor takes are
+    options, `measure.NAME.OPTION` in scenarios and studies. Raises InputError.
     """
     return _decorated("measure", cls, version)
 
