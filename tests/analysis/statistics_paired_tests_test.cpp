@@ -135,6 +135,22 @@ TEST(SignedRankTest, GivesEqualDifferencesTheirMidrankAndLeavesOutZeros) {
   EXPECT_EQ(signed_rank_test(tied).value().p_value, 6.0 / 8.0);
 }
 
+TEST(SignedRankTest, OfManyIsNormalWithACorrectionForContinuity) {
+  std::vector<double> differences = whole_numbers(1, 120);  // their own ranks
+  double positive = 0.0;
+  for (double& x : differences) {
+    if (std::fmod(x, 5.0) < 2.0) x = -x;
+    positive += std::max(0.0, x);
+  }
+  const double n = 120.0;
+  const double excess = positive - n * (n + 1.0) / 4.0;
+  const double z = (excess - 0.5) / std::sqrt(n * (n + 1.0) * (2.0 * n + 1.0) / 24.0);
+  const TestResult result = signed_rank_test(differences, greater).value();
+  EXPECT_FALSE(result.exact);
+  EXPECT_NEAR(result.p_value, 0.5 * std::erfc(z / std::sqrt(2.0)), 1e-14);
+  EXPECT_NEAR(signed_rank_test(differences).value().p_value, std::erfc(z / std::sqrt(2.0)), 1e-14);
+}
+
 TEST(SignedRankTest, IsTheSignFlipTestOfItsSignedRanks) {
   EXPECT_TRUE(rc::check("ranks with ties", [] {
     const std::vector<double> differences = some_differences();

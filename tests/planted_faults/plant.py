@@ -5,9 +5,9 @@
     tests/planted_faults/plant.py --list
 
 Works on a copy of the sources, which it builds and tests as they are first. Then it changes one file at a
-time, builds the library that the file belongs to (all are shared: no test is linked anew), and runs the
-tests of that layer and of those above it until one fails. A test program that does not end within five
-minutes has caught the fault, too.
+time, builds the library that the file belongs to (all are shared: only tests that include the file are
+built anew), and runs the tests of that layer and of those above it until one fails. A test program that
+does not end within five minutes has caught the fault, too.
 
 Each answer is written to --results at once, and a run that was interrupted goes on where it stopped; after
 a change of sources or tests, delete that file. --work keeps the copy and its build for the next run.
@@ -54,6 +54,13 @@ def layer_of(fault):
     return fault["file"].split("/")[0]
 
 
+def targets_of(fault):
+    """What is built with the fault: the library, and of a header what may have it in its own code."""
+    layer = layer_of(fault)
+    tests = LAYERS[LAYERS.index(layer):] if fault["file"].endswith(".hpp") else []
+    return {f"shoal_{layer}", *(f"{each}_test" for each in tests)}
+
+
 def key_of(fault):
     """Changes with the fault, so that an answer for another one of its number is not taken for it."""
     text = "\0".join([fault["file"], fault["is"], fault["becomes"]])
@@ -92,7 +99,7 @@ class Copy:
         self.source = work / "source"
         self.build = build or self.source / "build" / "ci"
         self.with_python = with_python
-        self.stale = set()  # layers whose library still has the last fault in it
+        self.stale = set()  # targets that still have the last fault in them
 
     def prepare(self):
         """Builds everything, and ends the program if a test fails without a fault."""
@@ -130,7 +137,7 @@ class Copy:
         layer = layer_of(fault)
         try:
             path.write_bytes(sound.replace(fault["is"].encode(), fault["becomes"].encode()))
-            complaint = self.make(sorted(f"shoal_{each}" for each in self.stale | {layer}))
+            complaint = self.make(sorted(self.stale | targets_of(fault)))
             if complaint:
                 first = next((line for line in complaint.splitlines() if "error:" in line), "")
                 return f"{ERROR}does not build: {first}"
@@ -140,7 +147,7 @@ class Copy:
             return self.failed_python_test(layer) or NOT_CAUGHT_BY_ALL
         finally:
             path.write_bytes(sound)  # as new as can be, so that it is compiled again
-            self.stale = {layer}
+            self.stale = targets_of(fault)
 
     def failed_test(self, layers):
         """The first test of these layers that fails, or nothing."""

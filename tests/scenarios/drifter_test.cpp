@@ -76,6 +76,29 @@ TEST(Drifter, DrawsTheTurningPowerUntilTheHalfTurnIsNearlyDone) {
   EXPECT_NEAR(one.swarm->propulsion_j[0], 96.0 * (6.7 + 5.3), 96.0 * 0.3);
 }
 
+TEST(Drifter, DampsTheTurnByTheMeanRateOfTheHeadingErrorOverItsWindow) {
+  for (const std::int64_t window : {1, 4, 9}) {
+    Drifter type = OneVehicle::quiet();
+    type.heading_differences = window;
+    OneVehicle one(type);
+    one.run(4.0, ahead(0.0, radians(40)));
+    // 2 e + e' in percent of full rate, every second step of 20 Hz.
+    double heading = 0.0, thrust = 0.0;
+    std::vector<double> errors(static_cast<std::size_t>(window), radians(40));
+    for (int k = 0; k < 80; ++k) {
+      if (k % 2 == 0) {
+        const double error = radians(40) - heading;
+        const double before = errors[errors.size() - static_cast<std::size_t>(window)];
+        errors.push_back(error);
+        const double rate = (error - before) / (0.1 * static_cast<double>(window));
+        thrust = std::clamp(degrees(2.0 * error + rate) / 100.0, -1.0, 1.0);
+      }
+      heading += 0.05 * radians(18) * thrust;
+    }
+    EXPECT_NEAR(one.swarm->heading_rad[0], heading, 1e-9) << window;
+  }
+}
+
 TEST(Drifter, TakesTheShorterWayRound) {
   OneVehicle one;
   one.run(1.0, ahead(1.0, radians(-170)));
@@ -114,10 +137,11 @@ double drag_map(double v) {
 }
 
 TEST(Drifter, GlidesToRestAlongTheDragMap) {
-  double speed = 1.0, path = 0.0;  // the author's Euler steps of 20 Hz
+  double speed = 1.0, path = 0.0, cubed = 0.0;  // the author's Euler steps of 20 Hz
   for (int k = 0; k < 2400; ++k) {
     const double next = speed - 0.05 * drag_map(speed) / 31.0;
     path += 0.5 * (speed + next) * 0.05;
+    cubed += std::pow(0.5 * (speed + next), 3) * 0.05;
     speed = next;
   }
   OneVehicle one;
@@ -125,6 +149,8 @@ TEST(Drifter, GlidesToRestAlongTheDragMap) {
   one.run(120.0, {});
   EXPECT_EQ(one.swarm->speed_m_s[0], 0.0);
   EXPECT_NEAR(one.swarm->x_m[0], path, 0.013);  // the last centimetre is cut off
+  const double expected_j = one.energy.power_w / std::pow(one.energy.power_speed_m_s, 3) * cubed;
+  EXPECT_NEAR(one.swarm->propulsion_j[0], expected_j, 0.04 * expected_j);  // at five steps a tick
   EXPECT_EQ(one.swarm->y_m[0], 0.0);
 }
 

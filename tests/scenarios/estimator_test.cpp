@@ -248,6 +248,7 @@ TEST(VehicleFilter, HeadingCrossesSouthWithoutAJump) {
     // The mean turn is smaller than that of the mean attitude, by the cosine of an uncertain roll.
     ASSERT_LT(std::abs(error(estimate, x)(11)), 1e-3) << k;
     ASSERT_LT(error(estimate, x).segment<2>(6).norm(), 0.05) << k;
+    ASSERT_LT(estimate.nees, 1.0) << "the truth's heading is not wrapped";
     ASSERT_EQ(estimate.status, UkfStatus::ok);
   }
 }

@@ -170,6 +170,21 @@ TEST(NetcdfCurrent, MeetsEveryVehicleAtItsOwnDepth) {
   for (const double each : u) EXPECT_NEAR(each, 0.2, float_rounding);
 }
 
+TEST(NetcdfCurrent, MeetsVehiclesAtTheirDepthsFromItsStartOn) {
+  File file;
+  file.depth = {0, 20};
+  file.velocity = [](double t, double z, double, double) { return Vector2d(1e-4 * t, 0.01 * z); };
+  file.time = {0, 600, 1200};
+  const auto water = open(file.write("later.nc"), {{"time_offset_s", plain(300.0)}});
+  const std::vector<double> x{50, 60}, y{50, 50}, depth{5, 15};
+  std::vector<double> u(2), v(2);
+  water->sample_at(60, x, y, depth, u, v);
+  for (std::size_t k = 0; k < 2; ++k) {
+    EXPECT_NEAR(u[k], 0.036, float_rounding);
+    EXPECT_NEAR(v[k], 0.01 * depth[k], float_rounding);
+  }
+}
+
 TEST(NetcdfCurrent, RefusesAVehicleThatLeavesTheDepths) {
   File file;
   file.depth = {5, 20};

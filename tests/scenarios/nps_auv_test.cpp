@@ -226,6 +226,22 @@ TEST(NpsAuvControllers, PushTheRightWay) {
   EXPECT_LT(controllers(x, {.speed_m_s = 1.5, .heading_rad = -3.0}).rudder_rad, 0.0);
 }
 
+TEST(NpsAuvControllers, DeflectAsTheirEquationsSay) {  // (43) and (44)-(45), by hand
+  NpsAuvControllers controllers;
+  controllers.plane_max_rad = 1.5;
+  VehicleState x = VehicleState::Zero();
+  x(1) = 0.1;
+  x(4) = 0.02;
+  x(5) = 0.05;
+  x(8) = 10.5;
+  x(10) = 0.1;
+  x(11) = 0.07;
+  const NpsAuvInputs in =
+      controllers(x, {.heading_rad = 0.05, .turn_rate_rad_s = 0.01, .depth_m = 10.0});
+  EXPECT_NEAR(in.rudder_rad, 0.9153813416, 1e-9);
+  EXPECT_NEAR(in.stern_planes_rad, 0.6630803258, 1e-9);
+}
+
 TEST(NpsAuvControllers, BrakeWithThePropellerIfItMayTurnBackwards) {
   VehicleState fast = VehicleState::Zero();
   fast(0) = 1.5;

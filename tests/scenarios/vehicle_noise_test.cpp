@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
 #include <cmath>
 #include <numbers>
@@ -204,6 +205,21 @@ TEST(Disturbances, WithoutALimitHaveTheirCovariance) {
           std::sqrt(disturbance_covariance()(i, i) * disturbance_covariance()(j, j));
       EXPECT_NEAR(R(i, j), expected, 4.0 * scale * std::sqrt(2.0 / 131072.0));
     }
+  }
+}
+
+TEST(Disturbances, WithoutALimitHaveNothingInCommonWithThoseBefore) {
+  constexpr std::uint64_t n = 4000;
+  Disturbances disturbances({.scale = 1.0}, 1, RandomStreams(4), 1e9);
+  const Eigen::LLT<BodyCovariance> root(disturbance_covariance());
+  std::vector<BodyAcceleration> white;
+  for (std::uint64_t k = 0; k < n; ++k) {
+    white.emplace_back(root.matrixL().solve(disturbances.sample(0, k)));
+  }
+  for (const std::uint64_t lag : {1, 2}) {
+    BodyCovariance common = BodyCovariance::Zero();
+    for (std::uint64_t k = lag; k < n; ++k) common += white[k] * white[k - lag].transpose();
+    EXPECT_LT(common.cwiseAbs().maxCoeff(), 4.5 * std::sqrt(static_cast<double>(n))) << lag;
   }
 }
 

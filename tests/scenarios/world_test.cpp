@@ -65,6 +65,75 @@ TEST(World, ThreadsDoNotChangeTheNumbers) {
   EXPECT_EQ(one, run(many, 5));
 }
 
+TEST(World, APingIsSentAtTheFirstTickThatIsNotBeforeItsTime) {
+  World world(scenario_of(with(small, {"trial.duration_s=2", "ping.first_s=0.6"})), 1);
+  double sent_s = 0.0;
+  Looker looker(0.25, [&](const World& w) {
+    if (sent_s == 0.0 && w.logbook(0).pings_sent > 0) sent_s = w.time_s();
+  });
+  Observer* observers[] = {&looker};
+  world.run(observers);
+  EXPECT_EQ(sent_s, 0.75);
+}
+
+/// Vehicles that take themselves to be somewhere else.
+struct Misplaced final : VehicleType {
+  static void declare(Options<Misplaced>&) {}
+
+  struct Moving final : Swarm {
+    explicit Moving(const std::vector<Start>& starts) : Swarm(starts.size()) {
+      for (std::size_t i = 0; i < starts.size(); ++i) {
+        x_m[i] = starts[i].x_m;
+        y_m[i] = starts[i].y_m;
+        heading_rad[i] = starts[i].heading_rad;
+        believed_m_.push_back(Eigen::Vector2d(x_m[i], y_m[i]) + error_m(i));
+      }
+    }
+    static Eigen::Vector2d error_m(std::size_t i) {
+      return {30.0 - 7.0 * static_cast<double>(i), -20.0};
+    }
+    formations::OwnState own_state(std::size_t i) const override {
+      return {.position = believed_m_[i]};
+    }
+    void advance(std::size_t first, std::size_t last, std::int64_t,
+                 std::span<const formations::Command> commands, std::span<const double> u_m_s,
+                 std::span<const double> v_m_s) override {
+      for (std::size_t i = first; i < last; ++i) {
+        const double way_m = commands[i].thrust ? 0.25 * commands[i].speed_m_s : 0.0;
+        x_m[i] += way_m * std::cos(commands[i].heading_rad) + 0.25 * u_m_s[i];
+        y_m[i] += way_m * std::sin(commands[i].heading_rad) + 0.25 * v_m_s[i];
+        believed_m_[i] = Eigen::Vector2d(x_m[i], y_m[i]) + error_m(i);
+      }
+    }
+  };
+
+  std::optional<std::string> refuses_tick(double) const override { return std::nullopt; }
+  std::unique_ptr<Swarm> launch(const std::vector<Start>& starts, const Energy&,
+                                const RandomStreams&, double) const override {
+    return std::make_unique<Moving>(starts);
+  }
+};
+const Register<VehicleType, Misplaced> registered_vehicle{"misplaced", "a test"};
+
+TEST(World, NeighboursAreLaidAboutWhereTheVehicleBelievesItIs) {
+  World world(scenario_of(with(
+                  small, {"trial.duration_s=60", "swarm.vehicle.kind=\"misplaced\"",
+                          "current.kind=none", "guidance.drift.speed_m_s=1e-6", "ping.range_sd_m=0",
+                          "ping.bearing_sd_deg=0", "ping.elevation_sd_deg=0"})),
+              1);
+  world.run({});
+  const Swarm& swarm = world.swarm();
+  for (std::size_t i = 0; i < world.size(); ++i) {
+    const auto& neighbours = world.planner(i).last_neighbours();
+    EXPECT_EQ(neighbours.size(), world.size() - 1);
+    for (const formations::Neighbour& n : neighbours) {
+      const auto j = static_cast<std::size_t>(n.slot);
+      const Eigen::Vector2d there(swarm.x_m[j] - swarm.x_m[i], swarm.y_m[j] - swarm.y_m[i]);
+      EXPECT_LT((n.position - there).norm(), 1e-3) << i << ' ' << j;
+    }
+  }
+}
+
 /// rigid_registration for all vehicles that plan at an instant.
 struct RigidTogether final : formations::Behaviour {
   static void declare(Options<RigidTogether>&) {}
