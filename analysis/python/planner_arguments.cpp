@@ -77,6 +77,15 @@ std::vector<std::string> texts_argument(py::handle value, const std::string& nam
   return texts;
 }
 
+std::vector<int> slots_argument(py::handle value, const std::string& name, int plan_size) {
+  std::vector<int> slots;
+  for (const py::handle each : sequence_argument(value, name, "a sequence of integers")) {
+    const std::string place = name + "[" + std::to_string(slots.size()) + "]";
+    slots.push_back(static_cast<int>(integer_argument(each, place, -1, plan_size - 1)));
+  }
+  return slots;
+}
+
 std::vector<Setting> list_of_settings(py::handle value, const std::string& name) {
   std::vector<Setting> list;
   for (const py::handle each : sequence_argument(value, name, "a list of dicts")) {

@@ -26,6 +26,8 @@ formations::OwnState state_or_place(py::handle value, const std::string& name);
 
 std::optional<std::string> text_or_none(py::handle value, const std::string& name);
 std::vector<std::string> texts_argument(py::handle value, const std::string& name);
+/// Of a plan of that size; -1 for a vehicle without an id.
+std::vector<int> slots_argument(py::handle value, const std::string& name, int plan_size);
 std::vector<Setting> list_of_settings(py::handle value, const std::string& name);
 
 }  // namespace shoal::python

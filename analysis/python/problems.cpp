@@ -1,7 +1,7 @@
 #include <chrono>
 #include <cmath>
 
-#include "conversions.hpp"
+#include "planner_arguments.hpp"
 #include "shoal/core/interruption.hpp"
 #include "shoal/core/text.hpp"
 #include "shoal/formations/behaviour.hpp"
@@ -126,13 +126,16 @@ HeldProblem python_problem(const py::object& cost, const py::object& first,
 
 /// The smooth problems that a behaviour solves for a vehicle at the origin.
 std::vector<HeldProblem> posed(const py::object& behaviour_kind, const py::object& options,
-                               const py::object& neighbours, const formations::Plan& plan,
-                               int own_slot, const std::vector<int>& slots,
-                               const std::optional<Eigen::Vector2d>& waypoint) {
+                               const py::object& neighbours, const py::object& given_plan,
+                               const py::object& own_slot, const py::object& given_slots,
+                               const py::object& given_waypoint) {
   const std::string kind = text_argument(behaviour_kind, "behaviour");
   const std::shared_ptr<const formations::Behaviour> behaviour =
       Registry<formations::Behaviour>::instance().make(kind, settings_argument(options, "options"),
                                                        "behaviour." + kind);
+  const formations::Plan& plan = plan_argument(given_plan, "plan");
+  const std::vector<int> slots = slots_argument(given_slots, "slots", plan.size());
+  const auto waypoint = place_or_none(given_waypoint, "waypoint");
   if (behaviour->needs_waypoint() && !waypoint) {
     throw InputError("behaviour " + kind + " leads to a waypoint; give waypoint = (east, north)");
   }
@@ -154,10 +157,11 @@ std::vector<HeldProblem> posed(const py::object& behaviour_kind, const py::objec
   Gathered gathered;
   gathered.owner = behaviour;
   solvers::SolveObserver* const observers[] = {&gathered};
-  behaviour->step({.neighbours = around,
-                   .own_slot = own_slot,
-                   .waypoint = waypoint.value_or(Eigen::Vector2d::Zero())},
-                  plan, formations::Solving(nullptr, observers));
+  behaviour->step(
+      {.neighbours = around,
+       .own_slot = static_cast<int>(integer_argument(own_slot, "own_slot", 0, plan.size() - 1)),
+       .waypoint = waypoint.value_or(Eigen::Vector2d::Zero())},
+      plan, formations::Solving(nullptr, observers));
   return gathered.problems;
 }
 
@@ -289,8 +293,8 @@ void add_problems(py::module_& module) {
       "what the cost raises.");
   module.def(
       "posed", &posed, py::arg("behaviour"), py::arg("options"), py::arg("neighbours"),
-      py::arg("plan"), py::arg("own_slot") = 0, py::arg("slots") = std::vector<int>{},
-      py::arg("waypoint") = std::nullopt,
+      py::arg("plan"), py::arg("own_slot") = 0, py::arg("slots") = py::tuple(),
+      py::arg("waypoint") = py::none(),
       "The smooth problems that a behaviour solves for a vehicle at the origin. neighbours:\n"
       "array (neighbours, 2), metres in its own frame; slots: theirs in the plan; waypoint: in "
       "the\n"

@@ -3,6 +3,7 @@
     PYTHONPATH=build/ci/python python3 python_members_test.py SHOAL
 """
 
+import copy
 import math
 import pathlib
 import re
@@ -67,6 +68,35 @@ class MeanTogether:
         counts = seen.present.sum(axis=1)[:, None]
         with numpy.errstate(invalid="ignore"):
             return numpy.where(counts > 0, self.share * sums / counts, numpy.nan)
+
+
+@shoal.behaviour
+class Growing:
+    """A share of the way to the middle of its neighbours that grows with each target."""
+
+    def new_memory(self):
+        return {"targets": 0}
+
+    def target(self, seen, memory):
+        if len(seen.positions) == 0:
+            return None
+        memory["targets"] += 1
+        return memory["targets"] / 100 * numpy.add.reduce(seen.positions) / len(seen.positions)
+
+
+@shoal.behaviour
+class GrowingTogether:
+    def new_memory(self):
+        return {"targets": 0}
+
+    def targets(self, seen, memories):
+        sums = numpy.add.reduce(numpy.where(seen.present[:, :, None], seen.positions, 0.0), axis=1)
+        counts = seen.present.sum(axis=1)
+        targets = numpy.full(sums.shape, numpy.nan)
+        for i in numpy.flatnonzero(counts):
+            memories[i]["targets"] += 1
+            targets[i] = memories[i]["targets"] / 100 * sums[i] / counts[i]
+        return targets
 
 
 @shoal.measure
@@ -165,6 +195,22 @@ class Behaviours(PythonDesk):
         planner = shoal.Planner(plan, "mean", "1", {"share": 1.0})
         planner.receive(shoal.Ping(time_s=0, range_m=80, bearing_rad=0), [0, 0])
         numpy.testing.assert_allclose(planner.plan(1, [0, 0]), [80, 0], atol=1e-9)
+
+    def test_each_vehicle_has_a_memory_of_its_own(self):
+        runs = [shoal.run("construction_square", {**SHORT, "behaviour.kind": kind}, threads=threads).measures
+                for kind, threads in (("growing", 1), ("growing_together", 1), ("growing_together", 3))]
+        self.assertEqual(runs[0], runs[1])
+        self.assertEqual(runs[0], runs[2])
+
+    def test_the_memory_of_a_planner_goes_with_its_copy(self):
+        planner = shoal.Planner(shoal.Plan([[0, 0], [100, 0]]), "growing", "1")
+        planner.receive(shoal.Ping(time_s=0, range_m=80, bearing_rad=0), [0, 0])
+        self.assertAlmostEqual(planner.plan(1, [0, 0])[0], 0.8)
+        twin = copy.copy(planner)
+        for each in (planner, twin):
+            self.assertAlmostEqual(each.plan(2, [0, 0])[0], 1.6)
+        self.assertAlmostEqual(planner.plan(3, [0, 0])[0], 2.4)
+        self.assertAlmostEqual(twin.plan(3, [0, 0])[0], 2.4)
 
     def test_what_target_returns_is_checked(self):
         wrong = {"one place": [1, 2, 3], "real": "north", "finite": (math.nan, 0.0), "None": None}

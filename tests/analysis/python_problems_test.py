@@ -117,6 +117,13 @@ class Problems(PythonDesk):
                            ("start", lambda: shoal.Problem(lambda x: 0.0, [1j])),
                            ("x", lambda: problem.evaluate(None)),
                            ("behaviour", lambda: shoal.posed(5, {}, places, shoal.Plan(places))),
+                           ("plan", lambda: shoal.posed("pairwise_referencing", {}, places, places)),
+                           *((name, lambda name=name, value=value: shoal.posed(
+                               "pairwise_referencing", {}, places, shoal.Plan(places), **{name: value}))
+                             for name, value in (("own_slot", 2), ("own_slot", "0"), ("own_slot", 0.5),
+                                                 ("slots", 5), ("slots", "01"), ("waypoint", "north"))),
+                           (r"slots\[1\]", lambda: shoal.posed("pairwise_referencing", {}, places,
+                                                               shoal.Plan(places), slots=[0, 2])),
                            ("time_s", lambda: shoal.current("construction_square", 1j, 0.0, 0.0)),
                            ("family", lambda: shoal.options(5, "newton")),
                            ("version", lambda: shoal.potential(thesis, version=1)),

@@ -13,7 +13,24 @@ using formations::Plan;
 using formations::Solving;
 using formations::Target;
 
-/// A class with a method target(seen), or targets(seen) for all that plan at an instant.
+/// What an object remembers of one vehicle; a copy is a deep one.
+class PythonMemory final : public Memory {
+ public:
+  explicit PythonMemory(py::object content) : content_(std::move(content)) {}
+
+  std::unique_ptr<Memory> clone() const override {
+    const py::gil_scoped_acquire held;
+    return std::make_unique<PythonMemory>(
+        py::module_::import("copy").attr("deepcopy")(content_.object()));
+  }
+  const py::object& content() const { return content_.object(); }
+
+ private:
+  Held content_;
+};
+
+/// A class with a method target(seen), or targets(seen) for all that plan at an instant; with
+/// new_memory(), they are also given what it returned for the vehicle, or a list of that.
 class PythonBehaviour final : public Behaviour {
  public:
   PythonBehaviour(std::shared_ptr<const Held> object, std::string name)
@@ -23,6 +40,7 @@ class PythonBehaviour final : public Behaviour {
     if (!together_ && !object_->has("target")) {
       throw InputError("the class " + name_ + " has no method target(seen) or targets(seen)");
     }
+    remembers_ = object_->has("new_memory");
     needs_ids_ = object_->flag("needs_ids");
     needs_waypoint_ = object_->flag("needs_waypoint");
     gives_forces_ = object_->flag("gives_forces");
@@ -35,6 +53,12 @@ class PythonBehaviour final : public Behaviour {
   bool needs_clock() const override { return needs_clock_; }
   bool plans_together() const override { return together_; }
 
+  std::unique_ptr<Memory> new_memory() const override {
+    if (!remembers_) return nullptr;
+    const py::gil_scoped_acquire held;
+    return std::make_unique<PythonMemory>(object_->attr("new_memory")());
+  }
+
   using Behaviour::step;
   Target step(const Neighbourhood& seen, const Plan& plan, const Solving& solving) const override {
     if (together_) {
@@ -43,7 +67,8 @@ class PythonBehaviour final : public Behaviour {
       return target;
     }
     const py::gil_scoped_acquire held;
-    const py::object answer = object_->attr("target")(one_neighbourhood(seen, plan));
+    const py::object method = object_->attr("target"), given = one_neighbourhood(seen, plan);
+    const py::object answer = remembers_ ? method(given, memory_of(solving)) : method(given);
     if (answer.is_none()) return hold(seen);
     const Array place = real_array(answer, name_ + ".target()");
     if (place.ndim() != 1 || place.size() != 2)
@@ -55,8 +80,13 @@ class PythonBehaviour final : public Behaviour {
                      std::span<const Solving> solving, std::span<Target> targets) const override {
     if (!together_) return Behaviour::step_together(seen, plan, solving, targets);
     const py::gil_scoped_acquire held;
+    const py::object method = object_->attr("targets"), given = many_neighbourhoods(seen, plan);
+    py::list memories;
+    for (const Solving& each : solving) {
+      if (remembers_) memories.append(memory_of(each));
+    }
     const Array places =
-        real_array(object_->attr("targets")(many_neighbourhoods(seen, plan)), name_ + ".targets()");
+        real_array(remembers_ ? method(given, memories) : method(given), name_ + ".targets()");
     if (places.ndim() != 2 || places.shape(0) != static_cast<py::ssize_t>(seen.size()) ||
         places.shape(1) != 2) {
       refuse("targets", "a row (east, north) for each of the vehicles, of NaN to hold");
@@ -70,6 +100,12 @@ class PythonBehaviour final : public Behaviour {
   }
 
  private:
+  py::object memory_of(const Solving& solving) const {
+    const Memory* memory = solving.memory();
+    return memory ? static_cast<const PythonMemory*>(memory)->content()
+                  : py::object(object_->attr("new_memory")());
+  }
+
   static Target hold(const Neighbourhood& seen) {
     return Target::hold(seen.neighbours.empty() ? formations::Reason::no_neighbour
                                                 : formations::Reason::degenerate);
@@ -86,7 +122,7 @@ class PythonBehaviour final : public Behaviour {
 
   std::shared_ptr<const Held> object_;
   std::string name_;
-  bool together_, needs_ids_, needs_waypoint_, gives_forces_, needs_clock_;
+  bool together_, remembers_, needs_ids_, needs_waypoint_, gives_forces_, needs_clock_;
 };
 
 }  // namespace

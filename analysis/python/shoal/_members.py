@@ -49,6 +49,9 @@ def behaviour(cls: type | None = None, *, version: str | None = None) -> Any:
     hold. Or `targets(seen)`, which is given Neighbourhoods, all vehicles that plan at an instant, and
     returns an array (vehicles, 2), rows of NaN to hold: written with arrays, it is as many times faster.
 
+    With a method `new_memory()`, whatever that returns is kept for each vehicle and given as a second argument
+    (to `targets`, a list of them), to be changed in place; a copy of a planner has a deep copy of it.
+
     It may have, as True: needs_ids (anonymous neighbours are of no use to it), needs_waypoint,
     gives_forces (it returns m/s2 instead of places), needs_clock (targets change as the vehicle moves).
     shoal.testing.check_behaviour() tests what has to hold for all. Raises InputError.
