@@ -63,6 +63,8 @@ void claims(const std::string& folder);
 void report(const std::string& folder);
 /// Becomes Python, which takes the same arguments.
 void figures(const std::vector<std::string>& arguments);
+/// What Python draws them by.
+std::string figures_package();
 /// Draws all figures of a folder in a child process, whose errors are shown: whether it succeeded.
 bool figures_drawn(const std::string& folder);
 

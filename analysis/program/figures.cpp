@@ -7,7 +7,7 @@ namespace shoal::program {
 namespace {
 
 std::vector<std::string> drawing(const std::vector<std::string>& arguments) {
-  std::vector<std::string> words{(scenarios::library_path() / "figures").string()};
+  std::vector<std::string> words{figures_package()};
   words.insert(words.end(), arguments.begin(), arguments.end());
   return words;
 }
@@ -15,6 +15,10 @@ std::vector<std::string> drawing(const std::vector<std::string>& arguments) {
 constexpr const char* purpose = "draws the figures";
 
 }  // namespace
+
+std::string figures_package() {
+  return (scenarios::library_path() / "figures").string();
+}
 
 void figures(const std::vector<std::string>& arguments) {
   become_python(purpose, drawing(arguments));

@@ -70,6 +70,7 @@ void read_shard(const std::string& text, analysis::SweepSettings& settings) {
   words.insert(words.end(), {"--replications", std::to_string(arguments.replications)});
   if (arguments.rerun_changed) words.emplace_back("--rerun-changed");
   if (arguments.retry_failed) words.emplace_back("--retry-failed");
+  if (arguments.figures) words.insert(words.end(), {"--figures", figures_package()});
   become_python("talks with dask", words);
 }
 

@@ -157,6 +157,7 @@ class Distributed(StudyDesk):
         self.assert_same_study("one", "many")
         again = self.shoal("sweep", "study.toml", "--dask", cluster.address, "--out", "many")
         self.assertIn("many: 9 of 9 trials are stored, 0 of them run now", again.stdout)
+        self.assertNotIn("figures", again.stdout)  # left out by self.shoal()
 
     def test_trials_that_fail_are_stored_as_such(self):
         self.write("sea.toml", FAILING)
@@ -210,10 +211,14 @@ class Distributed(StudyDesk):
         self.write("study.toml", SHORT)
         cluster, _ = self.cluster(0)
         with subprocess.Popen([desk.SHOAL, "sweep", "study.toml", "--dask", cluster.address],
-                              cwd=self.desk, stderr=subprocess.PIPE, text=True) as waiting:
+                              cwd=self.desk, stdout=subprocess.PIPE, stderr=subprocess.PIPE,
+                              text=True) as waiting:
             self.assertIn("no worker has joined", waiting.stderr.readline())
             cluster.start_worker()
-            self.assertEqual(waiting.wait(timeout=120), 0)
+            said, _ = waiting.communicate(timeout=120)
+            self.assertEqual(waiting.returncode, 0)
+        self.assertIn("written: out/study/figures, each as .pdf and .svg\n", said)
+        self.assertTrue(list((self.desk / "out" / "study" / "figures").glob("*.svg")))
 
     def test_workers_that_die_of_a_trial_are_told(self):
         self.write("study.toml", SHORT)

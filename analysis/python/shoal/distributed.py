@@ -21,6 +21,7 @@ import contextlib
 import logging
 import os
 import pathlib
+import subprocess
 import sys
 import time
 import uuid
@@ -162,6 +163,7 @@ def _main() -> int:
     parser.add_argument("--batch", type=int, default=1)
     parser.add_argument("--rerun-changed", action="store_true")
     parser.add_argument("--retry-failed", action="store_true")
+    parser.add_argument("--figures", help="the program that draws them")
     wanted = parser.parse_args()
     try:
         import distributed
@@ -192,6 +194,8 @@ def _main() -> int:
         print(*open_sweep.summary(), sep="\n")
         study = _shoal.SweptStudy(folder)
         study.write_tables()
+        drawn = wanted.figures is not None and subprocess.run(
+            [sys.executable, "-B", wanted.figures, folder], stdout=subprocess.DEVNULL).returncode == 0
         study.write_report()
     except _shoal.InputError as error:
         return _complain(error, 2)
@@ -200,6 +204,8 @@ def _main() -> int:
     except KeyboardInterrupt:
         return _complain("interrupted" + AGAIN, 1)
     print(f"written: {folder}/tables, {folder}/report.html")
+    if drawn:
+        print(f"written: {folder}/figures, each as .pdf and .svg")
     return 0
 
 
