@@ -29,9 +29,9 @@ class ProblemFamily {
                           const std::string& path) = 0;
   /// Copies the problem, if it is of this family.
   virtual void keep(const solvers::Solved& solved) = 0;
-  /// For each solver, its answers to all kept problems. `progress`: every problem is solved once
-  /// more, to trace it.
-  virtual std::vector<std::vector<SolverAnswer>> answers(bool progress) const = 0;
+  /// For each solver, its answers to all kept problems, which are then let go: they may go by what
+  /// stated them. `progress`: every problem is solved once more, to trace it.
+  virtual std::vector<std::vector<SolverAnswer>> answers(bool progress) = 0;
 };
 
 /// The problems of a family, as `Kept` describes them, with a solver of type `Kept::Solver`:
@@ -60,7 +60,7 @@ class ProblemFamilyOf : public ProblemFamily {
     if (const Problem* problem = solved.problem<Problem>()) kept_.emplace_back(*problem);
   }
 
-  std::vector<std::vector<SolverAnswer>> answers(bool progress) const override {
+  std::vector<std::vector<SolverAnswer>> answers(bool progress) override {
     std::vector<std::vector<SolverAnswer>> all;
     // One solver after another, not problem by problem: a large one would leave the others a cold
     // cache, and a time that is not theirs.
@@ -72,6 +72,7 @@ class ProblemFamilyOf : public ProblemFamily {
         if (answers[k].refusal.empty()) answers[k].progress = trace(*solver, kept_[k].problem());
       }
     }
+    kept_.clear();
     return all;
   }
 
