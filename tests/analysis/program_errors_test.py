@@ -271,7 +271,7 @@ BAD_ARGUMENTS = [
     (["solve", "ok.toml", "--solvers", "newton", "--format", "pdf"],
      ['there is no format "pdf"', "csv, html, latex, markdown and text"]),
     (["solve", "ok.toml", "--solvers", "newton", "--set", "newton.max_evaluations=3"],
-     ['there is no family of solvers "newton"', "known are solver, registration and matching"]),
+     ['there is no family of solvers "newton"', "known are matching, registration and solver"]),
     (["solve", "ok.toml", "--solvers", "newton", "--set", "solver.newton.max_evaluation=3"],
      ['solver.newton has no option "max_evaluation"; did you mean "max_evaluations"?']),
     (["solve", "ok.toml", "--solvers", "newton", "--reference", "grid"],
