@@ -216,7 +216,7 @@ TEST(Disturbances, WithoutALimitHaveNothingInCommonWithThoseBefore) {
   for (std::uint64_t k = 0; k < n; ++k) {
     white.emplace_back(root.matrixL().solve(disturbances.sample(0, k)));
   }
-  for (const std::uint64_t lag : {1, 2}) {
+  for (std::uint64_t lag = 1; lag <= 2; ++lag) {
     BodyCovariance common = BodyCovariance::Zero();
     for (std::uint64_t k = lag; k < n; ++k) common += white[k] * white[k - lag].transpose();
     EXPECT_LT(common.cwiseAbs().maxCoeff(), 4.5 * std::sqrt(static_cast<double>(n))) << lag;
