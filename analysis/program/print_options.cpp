@@ -44,7 +44,7 @@ void print_choice(const Option& option, const Setting* fallback, const std::stri
 
 /// Of members that are all in use, those that have options.
 void print_members(const Option& option, const std::string& key) {
-  fmt::print("{}.NAME.OPTION: {}, of\n", key, option.meaning);
+  fmt::print("{}.NAME.OPTION: {}; those that have some are\n", key, option.meaning);
   for (const MemberInfo& member : option.choice->members()) {
     if (member.schema().options.empty()) continue;
     fmt::print("      {:<26} {}\n", member.name, member.summary);

@@ -5,7 +5,8 @@
 namespace shoal::scenarios {
 
 bool lift_eigenvalues(AnyCovariance& P) {
-  using Vector = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, 16, 1>;
+  using Vector =
+      Eigen::Matrix<double, Eigen::Dynamic, 1, 0, AnyCovariance::MaxRowsAtCompileTime, 1>;
   if (!P.allFinite()) return false;
   // Variances of metres and of radians are put on one scale first.
   const Vector sd = P.diagonal().unaryExpr(

@@ -47,9 +47,16 @@ using AnyCovariance = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, 1
 /// that a filter can go on with. Returns false where P is not finite.
 bool lift_eigenvalues(AnyCovariance& P);
 
+/// The same matrix. Eigen does not check its size in a release build: the compiler does, here.
+template <int N>
+AnyCovariance any_covariance(const Eigen::Matrix<double, N, N>& P) {
+  static_assert(N <= AnyCovariance::MaxRowsAtCompileTime);
+  return P;
+}
+
 template <int N>
 bool lift_eigenvalues(Eigen::Matrix<double, N, N>& P) {
-  AnyCovariance lifted = P;
+  AnyCovariance lifted = any_covariance<N>(P);
   if (!lift_eigenvalues(lifted)) return false;
   P = lifted;
   return true;
@@ -72,7 +79,7 @@ void require_covariance(const Eigen::Matrix<double, N, N>& P, const std::string&
     }
   }
   Eigen::Matrix<double, N, N> root;
-  if (!lower_root<N>(P, root)) refuse_indefinite(P, name);
+  if (!lower_root<N>(P, root)) refuse_indefinite(any_covariance<N>(P), name);
 }
 
 }  // namespace shoal::scenarios

@@ -76,6 +76,7 @@ TEST(ProblemFamily, KeepsItsOwnProblemsOnlyAndSolvesThemByEachSolver) {
   EXPECT_EQ(answers[1][0].cost, 1.5);
   EXPECT_TRUE(answers[0][0].solved());
   EXPECT_EQ(answers[0][1].refusal, "takes no empty set");
+  EXPECT_TRUE(family.answers(false)[0].empty()) << "they are let go";
   EXPECT_EQ(&family.solvers(), &Registry<MiddleSolver>::instance());
 }
 

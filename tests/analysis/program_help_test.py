@@ -63,7 +63,7 @@ class Help(Desk):
     def test_describe_measures_and_their_options(self):
         text = self.say("describe", "measure")
         self.assertTrue(text.startswith(self.say("list", "measure")), text)
-        self.assertRegex(text, r"measure.NAME.OPTION: options of measures, of\n +lattice +is the lattice whole")
+        self.assertRegex(text, r"measure.NAME.OPTION: options of measures; those that have some are\n +lattice +is the lattice whole")
         self.assertIn("measure.lattice.together_spacings\n", self.say("describe", "lattice"))
         text = self.say("describe", "measure.lattice.together_spacings")
         self.assertIn("takes a number above 0; default 1.5\n", text)

@@ -32,8 +32,7 @@ class NeighbourEstimates final : public Measure {
              "the same of vehicles at rest / that of single measurements, rms"},
             {"neighbour_lag_m", "m",
              "how far places are behind, of neighbours that move at "
-             "measure.neighbour_estimates.moving_m_s "
-             "or more, mean"}};
+             "measure.neighbour_estimates.moving_m_s or more, mean"}};
   }
 
   void begin(const scenarios::World& world) override {

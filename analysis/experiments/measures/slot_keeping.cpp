@@ -55,10 +55,10 @@ class SlotKeepingMeasure final : public Measure {
   static void declare(Options<SlotKeepingMeasure>& o) {
     using S = SlotKeepingMeasure;
     o.number("left_spacings", &S::left_spacings, "", above(0),
-             "a vehicle is between two slots once it is less than this many separations from the "
-             "one that it comes to");
+             "a vehicle is between two slots where it is nearer than this many separations to the "
+             "one that it comes to, and farther than arrived_spacings");
     o.number("arrived_spacings", &S::arrived_spacings, "", at_least(0),
-             "and until it is this near");
+             "a vehicle this many separations from the slot that it comes to, or less, is there");
   }
   std::optional<std::string> complaint() const {
     if (arrived_spacings < left_spacings) return std::nullopt;
